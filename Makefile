@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Each target sets up the virtual environment it needs (.venv-5.2, .venv-4.5) by itself.
+
+SHELL := bash
+.DEFAULT_GOAL := help
+
+# `make test PYTEST_ARGS="-k furnace -x"` hands options to pytest, TESTS= chooses a folder or file.
+TESTS ?= blender_tests
+PYTEST_ARGS ?=
+
+any = python="$$(tools/environment.sh any)" && "$$python"
+on_5.2 = python="$$(tools/environment.sh 5.2)" && "$$python"
+on_4.5 = python="$$(tools/environment.sh 4.5)" && "$$python"
+pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
+
+# The folders osl, addon and scenes would otherwise pass for targets that are up to date.
+.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references scenes clean
+
+help: ## List the targets
+	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
+
+demo: ## Render the showcase scene with Single, Cycles Multiscatter and Microbounce; compare
+	@$(any) scenes/demo.py
+
+demo-picture: ## The same, and renew the picture in docs/ that the README shows
+	@$(any) scenes/demo.py --picture docs/comparison.jpg
+
+test: ## Run every test on one Blender version (5.2, or 4.5 where only Python 3.11 is there)
+	@$(any) $(pytest)
+
+test-all: ## Run every test on Blender 5.2, then on 4.5
+	@status=0; \
+	for blender in 5.2 4.5; do \
+	  python="$$(tools/environment.sh $$blender)" && \
+	    echo "== Tests on Blender $$blender" && "$$python" $(pytest) || status=1; \
+	done; \
+	exit $$status
+
+test-5.2: ## Run every test on Blender 5.2
+	@$(on_5.2) $(pytest)
+
+test-4.5: ## Run every test on Blender 4.5
+	@$(on_4.5) $(pytest)
+
+lint: ## Check the code's form: ruff, and the rules for the OSL sources
+	@$(any) -m ruff check . && "$$python" -m ruff format --check . && "$$python" tools/check_osl.py
+
+format: ## Format the Python sources and fix what ruff can fix
+	@$(any) -m ruff check --fix . ; "$$python" -m ruff format .
+
+addon: ## Build the extension's zip into dist/ and validate it
+	@$(any) tools/build_addon.py
+
+references: ## Render the oracle's reference pictures anew (about ten minutes)
+	@$(any) -m blender_tests.oracle.references
+
+scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both versions open them
+	@$(on_4.5) scenes/build_all.py
+
+clean: ## Remove what was built; the virtual environments stay
+	@rm -rf build dist .pytest_cache .ruff_cache .hypothesis
+	@find . -name '.venv*' -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
+	@find osl -name '*.oso' -delete 2>/dev/null || true
