@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the parameter list of a compiled shader (.oso text).
+
+Cycles' own way needs the `oslquery` module, which not every Blender can import.
+"""
+
+from dataclasses import dataclass
+
+from .parameters import Parameter
+
+_KIND_TYPES = {
+    "COLOR": ("color",),
+    "FLOAT": ("float",),
+    "INT": ("int",),
+    "VECTOR": ("vector",),
+    "NORMAL": ("normal",),
+    "TANGENT": ("vector", "normal"),
+}
+
+
+@dataclass(frozen=True)
+class OsoParameter:
+    """A parameter as the compiled shader declares it.
+
+    `default` holds one or three numbers, or none for a closure. `computed` is True where the
+    default is an expression, such as the shading normal, and `default` says nothing.
+    """
+
+    name: str
+    type: str
+    default: tuple[float, ...]
+    computed: bool
+    output: bool
+
+
+def oso_parameters(bytecode: str) -> tuple[OsoParameter, ...]:
+    """Return the shader's parameters and outputs in the order of their declaration.
+
+    Raises ValueError where the text is no compiled shader.
+    """
+    if not bytecode.startswith("OpenShadingLanguage"):
+        raise ValueError(f"not a compiled shader: it starts with {bytecode[:20]!r}")
+    found = []
+    for line in bytecode.splitlines():
+        words = line.split()
+        if not words or words[0] not in ("param", "oparam"):
+            continue
+        output = words[0] == "oparam"
+        closure = words[1] == "closure"
+        type_name = "closure color" if closure else words[1]
+        name, rest = (words[3], words[4:]) if closure else (words[2], words[3:])
+        numbers = []
+        for word in rest:
+            if word.startswith(("%", '"')):
+                break
+            numbers.append(float(word))
+        found.append(OsoParameter(name, type_name, tuple(numbers), "%initexpr" in rest, output))
+    return tuple(found)
+
+
+def check_against(parameters: tuple[Parameter, ...], bytecode: str) -> None:
+    """Raise ValueError unless the shader declares exactly `parameters`: names, order and types."""
+    declared = [(p.name, p.type) for p in oso_parameters(bytecode) if not p.output]
+    names = [name for name, _ in declared]
+    wanted = [p.identifier for p in parameters]
+    if names != wanted:
+        raise ValueError(
+            f"The shader declares {', '.join(names)}; the extension expects {', '.join(wanted)}. "
+            "Reinstall the extension"
+        )
+    for (name, type_name), parameter in zip(declared, parameters, strict=True):
+        if type_name not in _KIND_TYPES[parameter.kind]:
+            raise ValueError(
+                f"The shader declares {name} as {type_name}; the extension expects "
+                f"{' or '.join(_KIND_TYPES[parameter.kind])}. Reinstall the extension"
+            )

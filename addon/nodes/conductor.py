@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The node group "Microbounce Conductor": the shader, and a native fallback beside it.
+
+The script node's output `Active` is 1 where the script runs and drives a Mix Shader whose own
+factor is 0. Without OSL (EEVEE, most GPUs, OSL switched off or not built in) Cycles and EEVEE
+leave the script out, the factor stays 0 and the native metal shows; with OSL the native closures
+have weight 0. That needs no handler, driver or extension in the file.
+"""
+
+import hashlib
+
+import bpy
+
+from ..core import VERSION
+from ..core.parameters import CONDUCTOR, Parameter
+from ..core.shader_source import inlined_source
+from .script import (
+    SOCKET_TYPES,
+    OslUnavailableError,
+    compile_source,
+    fill_script_node,
+    socket_value,
+)
+
+GROUP_NAME = "Microbounce Conductor"
+SHADER_NAME = "microbounce_conductor"
+VERSION_KEY = "microbounce_version"
+STAMP_KEY = "microbounce_stamp"
+
+# Inputs of Cycles' Metallic BSDF, whose `fresnel_type` decides on the first two.
+_NATIVE_COLOR = {"F82": ("Base Color", "Edge Tint"), "PHYSICAL_CONDUCTOR": ("IOR", "Extinction")}
+_NATIVE_SURFACE = ("Roughness", "Anisotropy", "Rotation", "Normal", "Tangent")
+
+_SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
+
+
+def conductor_group() -> bpy.types.ShaderNodeTree:
+    """Return the node group of this version of the extension; reuse the file's own if it has one.
+
+    In a Blender without OSL the group has no bytecode and shows its fallback; called again where
+    there is a compiler, it is completed. Raises ShaderSourceError or ShaderCompileError; the file
+    is then as it was.
+    """
+    source = inlined_source(SHADER_NAME)
+    stamp = hashlib.sha256((VERSION + source + repr(CONDUCTOR)).encode()).hexdigest()[:16]
+    group = _group_with(stamp)
+    if group is not None and (has_bytecode(group) or group.library is not None):
+        return group
+    try:
+        bytecode = compile_source(source)
+    except OslUnavailableError:
+        bytecode = ""
+    if group is not None and not bytecode:
+        return group
+    built = _build_group(source, bytecode, stamp)
+    if group is not None:
+        group.user_remap(built)
+        name = group.name
+        bpy.data.node_groups.remove(group)
+        built.name = name
+    return built
+
+
+def conductor_material(name: str, **values: object) -> bpy.types.Material:
+    """Return a new material `name` made of the node group and an output.
+
+    `values` are parameters by identifier, such as BaseColor=(1, 0.8, 0.4), Roughness=0.8 or
+    Quality="Exact". Raises TypeError or ValueError for an unknown parameter or a bad value, and
+    what conductor_group() raises; no material is left behind then.
+    """
+    known = {parameter.identifier: parameter for parameter in CONDUCTOR}
+    for identifier in values:
+        if identifier not in known:
+            raise TypeError(f"{identifier!r} is no parameter: use one of {', '.join(known)}")
+    sockets = {known[i].label: socket_value(known[i], value) for i, value in values.items()}
+    group = conductor_group()
+    material = bpy.data.materials.new(name)
+    if bpy.app.version < (5, 0, 0):  # later it is always on, and setting it is deprecated
+        material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    node = add_group_node(tree, group)
+    for label, value in sockets.items():
+        node.inputs[label].default_value = value
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.location = (300, 0)
+    tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
+    return material
+
+
+def add_group_node(
+    tree: bpy.types.ShaderNodeTree, group: bpy.types.ShaderNodeTree
+) -> bpy.types.ShaderNodeGroup:
+    """Add a node of `group` to `tree` at the origin and return it."""
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    node.name = node.label = GROUP_NAME
+    node.width = group.default_group_node_width
+    return node
+
+
+def has_bytecode(group: bpy.types.ShaderNodeTree) -> bool:
+    """Return whether the group's script can run."""
+    return any(node.bytecode for node in group.nodes if node.bl_idname == "ShaderNodeScript")
+
+
+def _group_with(stamp: str) -> bpy.types.ShaderNodeTree | None:
+    matching = [group for group in bpy.data.node_groups if group.get(STAMP_KEY) == stamp]
+    # A group of this file comes before one that is linked from a library and cannot be edited.
+    matching.sort(key=lambda group: group.library is not None)
+    return matching[0] if matching else None
+
+
+def _build_group(source: str, bytecode: str, stamp: str) -> bpy.types.ShaderNodeTree:
+    texts = set(bpy.data.texts)
+    group = bpy.data.node_groups.new(GROUP_NAME, "ShaderNodeTree")
+    try:
+        _make_interface(group)
+        _make_nodes(group, source, bytecode)
+    except Exception:
+        bpy.data.node_groups.remove(group)
+        for text in set(bpy.data.texts) - texts:
+            bpy.data.texts.remove(text)
+        raise
+    group.color_tag = "SHADER"
+    group.default_group_node_width = 240
+    group.description = (
+        f"Microbounce {VERSION}. Rough metal with the light of several bounces on its "
+        "microsurface, in Cycles with Open Shading Language; elsewhere Cycles' own metal shows"
+    )
+    group[VERSION_KEY] = VERSION
+    group[STAMP_KEY] = stamp
+    return group
+
+
+def _make_interface(group: bpy.types.ShaderNodeTree) -> None:
+    interface = group.interface
+    interface.new_socket("BSDF", in_out="OUTPUT", socket_type="NodeSocketShader")
+    # Blender keeps panels below the sockets that are in none.
+    for parameter in CONDUCTOR:
+        if not parameter.panel:
+            _make_socket(interface, parameter, None)
+    for name in dict.fromkeys(parameter.panel for parameter in CONDUCTOR if parameter.panel):
+        panel = interface.new_panel(name)
+        for parameter in CONDUCTOR:
+            if parameter.panel == name:
+                _make_socket(interface, parameter, panel)
+
+
+def _make_socket(
+    interface: bpy.types.NodeTreeInterface,
+    parameter: Parameter,
+    panel: bpy.types.NodeTreeInterfacePanel | None,
+) -> None:
+    socket = interface.new_socket(
+        parameter.label,
+        description=parameter.description,
+        in_out="INPUT",
+        socket_type=SOCKET_TYPES[parameter.kind],
+        parent=panel,
+    )
+    if parameter.kind == "FLOAT":
+        socket.subtype = _SUBTYPES.get(parameter.unit, "FACTOR")
+    if parameter.kind != "COLOR":
+        socket.min_value, socket.max_value = parameter.legal
+    socket.default_value = socket_value(parameter, parameter.default)
+    # Hidden values also tell Cycles and EEVEE that an unlinked input means the surface's own.
+    socket.hide_value = parameter.kind in ("NORMAL", "TANGENT")
+
+
+def _make_nodes(group: bpy.types.ShaderNodeTree, source: str, bytecode: str) -> None:
+    nodes, links = group.nodes, group.links
+    inputs = nodes.new("NodeGroupInput")
+    inputs.location = (-600, 0)
+    script = nodes.new("ShaderNodeScript")
+    script.name = script.label = "Multiple Bounces"
+    script.location = (-200, 500)
+    script.width = 240
+    fill_script_node(script, source, bytecode, f"{SHADER_NAME}.osl")
+    for parameter in CONDUCTOR:
+        links.new(inputs.outputs[parameter.label], _input(script, parameter.identifier))
+
+    switch = nodes.new("ShaderNodeMixShader")
+    switch.name = switch.label = "Fallback Unless Active"
+    switch.location = (600, 100)
+    switch.inputs[0].default_value = 0.0
+    links.new(script.outputs["Active"], switch.inputs[0])
+    links.new(_make_fallback(group, inputs), switch.inputs[1])
+    links.new(script.outputs["BSDF"], switch.inputs[2])
+
+    output = nodes.new("NodeGroupOutput")
+    output.location = (800, 100)
+    links.new(switch.outputs[0], output.inputs["BSDF"])
+
+
+def _make_fallback(
+    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node
+) -> bpy.types.NodeSocketShader:
+    """Add native metals, mixed by Distribution and Fresnel, and return their output.
+
+    GGX takes Cycles' own energy compensation, the nearest to further bounces; Beckmann has none.
+    """
+    nodes, links = group.nodes, group.links
+
+    def metal(distribution: str, fresnel: str, y: float) -> bpy.types.NodeSocketShader:
+        node = nodes.new("ShaderNodeBsdfMetallic")
+        node.distribution, node.fresnel_type = distribution, fresnel
+        node.label = f"Fallback {distribution} {fresnel}"
+        node.location = (-200, y)
+        for label in (*_NATIVE_COLOR[fresnel], *_NATIVE_SURFACE):
+            links.new(inputs.outputs[label], node.inputs[label])
+        return node.outputs[0]
+
+    def mix(
+        factor: str,
+        first: bpy.types.NodeSocketShader,
+        second: bpy.types.NodeSocketShader,
+        location: tuple[float, float],
+    ) -> bpy.types.NodeSocketShader:
+        node = nodes.new("ShaderNodeMixShader")
+        node.location = location
+        links.new(inputs.outputs[factor], node.inputs[0])
+        links.new(first, node.inputs[1])
+        links.new(second, node.inputs[2])
+        return node.outputs[0]
+
+    ggx = mix(
+        "Fresnel",
+        metal("MULTI_GGX", "F82", 0),
+        metal("MULTI_GGX", "PHYSICAL_CONDUCTOR", -300),
+        (150, -150),
+    )
+    beckmann = mix(
+        "Fresnel",
+        metal("BECKMANN", "F82", -600),
+        metal("BECKMANN", "PHYSICAL_CONDUCTOR", -900),
+        (150, -750),
+    )
+    return mix("Distribution", ggx, beckmann, (380, -400))
+
+
+def _input(node: bpy.types.Node, identifier: str) -> bpy.types.NodeSocket:
+    return next(socket for socket in node.inputs if socket.identifier == identifier)
