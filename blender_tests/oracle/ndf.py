@@ -12,7 +12,7 @@ from .surface import GGX, Surface
 from .vectors import dot, unit_vectors
 
 
-def D(m: np.ndarray, surface: Surface) -> np.ndarray:  # noqa: N802 (the field's symbol)
+def D(m: np.ndarray, surface: Surface) -> np.ndarray:
     """Density of micronormals ``m`` ``(..., 3)`` per steradian and unit of macrosurface, ``(...)``.
 
     0 where ``m.z <= 0``. Its integral weighted with ``m.z`` is 1.
@@ -49,7 +49,7 @@ def sigma(w: np.ndarray, surface: Surface) -> np.ndarray:
     return np.maximum(z, 0.0) + below
 
 
-def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:  # noqa: N802 (the paper's symbol)
+def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:
     """Smith's Lambda for ``w.z != 0`` on either side of the horizon (eq. 2): sigma(w)/w.z - 1."""
     w = np.asarray(w, dtype=np.float64)
     upper = w[..., 2] > 0.0
@@ -58,7 +58,7 @@ def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:  # noqa: N802 (the pa
     return np.where(upper, above, -1.0 - above)
 
 
-def Dvis(v: np.ndarray, m: np.ndarray, surface: Surface) -> np.ndarray:  # noqa: N802
+def Dvis(v: np.ndarray, m: np.ndarray, surface: Surface) -> np.ndarray:
     """Density per steradian of the micronormals ``m`` that ``v`` sees: <v,m> D(m) / sigma(v).
 
     ``v`` may lie below the horizon. Raises ``ValueError`` when ``v`` is not a unit vector or sees

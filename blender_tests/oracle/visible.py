@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sampling micronormals from Dvis(v, .), for v above or below the horizon.
 
-GGX: spherical caps (Dupuy, Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"), which
-hold on the full sphere. Beckmann: the surface is stretched to alpha = 1, where the slope across v is
-Gaussian and the slope x along v has density (a - x) exp(-x^2) for x < a, with a the cotangent of v's
-angle (Heitz, d'Eon 2014). The walk draws x by rejection, which is exact; `from_uniforms` inverts its
-distribution function to the last digits, for comparison with other samplers point by point.
+GGX: spherical caps (Dupuy, Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"),
+which hold on the full sphere. Beckmann: the surface is stretched to alpha = 1, where the slope
+across v is Gaussian and the slope x along v has density (a - x) exp(-x^2) for x < a, with a the
+cotangent of v's angle (Heitz, d'Eon 2014). The walk draws x by rejection, which is exact;
+`from_uniforms` inverts its distribution function to the last digits, for comparison with other
+samplers point by point.
 """
 
 from statistics import NormalDist
@@ -61,7 +62,7 @@ def _ggx(v: np.ndarray, surface: Surface, u0: np.ndarray, u1: np.ndarray) -> np.
 
 
 def _stretch(v: np.ndarray, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
-    """Azimuth ``(n, 2)`` of v in the stretched frame (a unit vector), and its cotangent ``(n,)``."""
+    """Azimuth of v in the stretched frame as a unit vector ``(n, 2)``, and v's cotangent."""
     x, y = surface.alpha_x * v[:, 0], surface.alpha_y * v[:, 1]
     t = np.hypot(x, y)
     # straight up or down: any azimuth will do, and the cotangent's cap leaves a pure Gaussian

@@ -11,7 +11,7 @@ middle bounce (eq. 17). Otherwise the next vertex is met from v' = -o. Paths nev
 carry the probability of having stayed as part of their weight.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -190,7 +190,14 @@ def lobe(
     return sums.result(wo.shape[:-1])
 
 
-def _average(wi, surface, max_bounces, walks, rng, tally) -> Bounces:
+def _average(
+    wi: np.ndarray,
+    surface: Surface,
+    max_bounces: int,
+    walks: int,
+    rng: np.random.Generator | int,
+    tally: Callable[[Vertex, slice], np.ndarray],
+) -> Bounces:
     """Mean and variance of ``tally`` over the walks of every direction ``wi`` ``(..., 3)``."""
     rng = np.random.default_rng(rng)
     flat = wi.reshape(-1, 3)
