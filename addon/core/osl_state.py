@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Decides whether the shaders run in a scene, and says why not and what to do."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Status:
+    """Whether the shaders run. Where `ok` is False, `reason` and `remedy` are short sentences.
+
+    `can_enable` is True where switching Open Shading Language on is what is missing.
+    """
+
+    ok: bool
+    reason: str = ""
+    remedy: str = ""
+    can_enable: bool = False
+
+    @property
+    def message(self) -> str:
+        """Reason and remedy in one text, "" where the shaders run."""
+        return " ".join(part for part in (self.reason, self.remedy) if part)
+
+
+def osl_state(
+    built_with_osl: bool, engine: str, shading_system: bool, device: str, backend: str
+) -> Status:
+    """Return the status for a scene.
+
+    built_with_osl -- whether this Blender has Cycles with Open Shading Language
+    engine         -- the scene's render engine, such as "CYCLES"
+    shading_system -- the scene's switch for Open Shading Language
+    device         -- the scene's device, "CPU" or "GPU"
+    backend        -- the preferences' compute device type, such as "OPTIX" or "NONE"
+    """
+    if not built_with_osl:
+        return Status(
+            False,
+            "This Blender was built without Open Shading Language; the simple metal shows.",
+            "Use a Blender from blender.org.",
+        )
+    if engine != "CYCLES":
+        return Status(
+            False,
+            "The render engine is not Cycles; the simple metal shows.",
+            "Choose Cycles in the render properties.",
+        )
+    if not shading_system:
+        return Status(
+            False,
+            "Open Shading Language is off; the simple metal shows.",
+            "Switch it on in the render properties.",
+            can_enable=True,
+        )
+    # With no backend chosen Cycles renders on the CPU, whatever the scene says.
+    if device == "GPU" and backend not in ("OPTIX", "NONE"):
+        return Status(
+            False,
+            f"{backend} devices have no Open Shading Language; the simple metal shows.",
+            "Render on the CPU or with OptiX.",
+        )
+    return Status(True)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Gives the active object a new material."""
+
+import bpy
+
+from ..core.shader_source import ShaderSourceError
+from ..nodes.conductor import GROUP_NAME, conductor_material
+from ..nodes.script import ShaderCompileError
+from .osl import osl_status
+
+# Types whose data hold surface materials. A volume has no surface, and grease pencil has its own.
+_TYPES = frozenset({"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD"})
+
+
+def obstacle(obj: bpy.types.Object | None) -> str:
+    """Return why `obj` cannot be given a material, with the remedy; "" where it can."""
+    if obj is None:
+        return "There is no active object: select one"
+    if obj.type not in _TYPES:
+        kind = obj.type.replace("_", " ").lower()
+        return f"'{obj.name}' is of type {kind} and has no surface: select a mesh or a curve"
+    if not obj.is_editable:
+        return f"'{obj.name}' is linked from a library: make it local or a library override"
+    if not obj.material_slots and not obj.data.is_editable:
+        return (
+            f"The data of '{obj.name}' are linked from a library and have no material slot: "
+            "make the data local"
+        )
+    return ""
+
+
+def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None:
+    """Put `material` into the active slot of `obj`, or a first one where it has none.
+
+    Where the object's data are linked, the slot is switched from the data to the object.
+    """
+    if not obj.material_slots:
+        obj.data.materials.append(material)
+        return
+    slot = obj.material_slots[obj.active_material_index]
+    if slot.link == "DATA" and not obj.data.is_editable:
+        slot.link = "OBJECT"
+    slot.material = material
+
+
+class MICROBOUNCE_OT_add_conductor_material(bpy.types.Operator):
+    """Give the active object a new Microbounce Conductor material."""
+
+    bl_idname = "microbounce.add_conductor_material"
+    bl_label = "Add Microbounce Conductor"
+    bl_description = (
+        "Put a new Microbounce Conductor material into the active object's material slot"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow it for an object that can be given a material; say why otherwise."""
+        reason = obstacle(context.object)
+        if reason:
+            cls.poll_message_set(reason)
+        return not reason
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Make the material, assign it, and warn where its shader will not run."""
+        obj = context.object
+        try:
+            material = conductor_material(GROUP_NAME)
+        except (ShaderSourceError, ShaderCompileError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        assign_material(obj, material)
+        status = osl_status(context)
+        if not status.ok:
+            self.report({"WARNING"}, status.message)
+        return {"FINISHED"}
+
+
+CLASSES = (MICROBOUNCE_OT_add_conductor_material,)

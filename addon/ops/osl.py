@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports whether the shaders run in the scene, and offers to switch OSL on."""
+
+import bpy
+
+from ..core.osl_state import Status, osl_state
+from ..nodes.script import osl_compiler_available
+
+
+def osl_status(context: bpy.types.Context) -> Status:
+    """Return whether the shaders run in the context's scene, else why not and what to do."""
+    scene = context.scene
+    cycles = getattr(scene, "cycles", None)  # absent where the Cycles add-on is disabled
+    addon = context.preferences.addons.get("cycles")
+    return osl_state(
+        built_with_osl=osl_compiler_available(),
+        engine=scene.render.engine,
+        shading_system=bool(cycles and cycles.shading_system),
+        device=cycles.device if cycles else "CPU",
+        backend=addon.preferences.compute_device_type if addon else "NONE",
+    )
+
+
+class MICROBOUNCE_OT_enable_osl(bpy.types.Operator):
+    """Set the scene's switch for Open Shading Language."""
+
+    bl_idname = "microbounce.enable_osl"
+    bl_label = "Enable Open Shading Language"
+    bl_description = (
+        "Switch Open Shading Language on for this scene, which Microbounce materials need"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow it where it helps; say why where it does not."""
+        status = osl_status(context)
+        if status.can_enable:
+            return True
+        cls.poll_message_set(status.message or "Open Shading Language is on")
+        return False
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Set the switch, and warn where the device still stands in the way."""
+        context.scene.cycles.shading_system = True
+        status = osl_status(context)
+        if not status.ok:
+            self.report({"WARNING"}, status.message)
+        return {"FINISHED"}
+
+
+CLASSES = (MICROBOUNCE_OT_enable_osl,)

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels in the Shader editor's sidebar and in the material properties."""
+
+import textwrap
+
+import bpy
+
+from ..core import VERSION
+from ..nodes.conductor import GROUP_NAME
+from ..ops.material import MICROBOUNCE_OT_add_conductor_material
+from ..ops.node import MICROBOUNCE_OT_add_conductor_node
+from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
+
+# Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
+_CHARACTER_WIDTH = 8
+
+
+def draw_status(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Say whether the shaders run; where OSL is merely off, offer to switch it on."""
+    status = osl_status(context)
+    if status.ok:
+        layout.label(text="Open Shading Language is on", icon="CHECKMARK")
+        return
+    column = layout.box().column(align=True)
+    scale = context.preferences.system.ui_scale
+    width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
+    for number, line in enumerate(textwrap.wrap(status.message, width)):
+        column.label(text=line, icon="BLANK1" if number else "INFO")
+    if status.can_enable:
+        layout.operator(MICROBOUNCE_OT_enable_osl.bl_idname)
+
+
+class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
+    """Microbounce in the Shader editor."""
+
+    bl_label = "Microbounce"
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Microbounce"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Show it in the Shader editor only."""
+        return context.space_data.tree_type == "ShaderNodeTree"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the state of OSL and the Add button."""
+        draw_status(self.layout, context)
+        self.layout.operator(
+            MICROBOUNCE_OT_add_conductor_node.bl_idname, text=f"Add {GROUP_NAME}", icon="ADD"
+        )
+        self.layout.label(text=f"Version {VERSION}")
+
+
+class MICROBOUNCE_PT_material(bpy.types.Panel):
+    """Microbounce in the material properties."""
+
+    bl_label = "Microbounce"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Show it for every object with a material tab."""
+        return context.object is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the state of OSL and the button for a new material."""
+        draw_status(self.layout, context)
+        self.layout.operator(MICROBOUNCE_OT_add_conductor_material.bl_idname, icon="ADD")
+
+
+CLASSES = (MICROBOUNCE_PT_shader_editor, MICROBOUNCE_PT_material)
