@@ -10,11 +10,13 @@ the light. A vertex receives the path from ``v`` (minus the direction of travel)
 ``o``; ``m`` is a micronormal with ``m.z > 0``. All directions are unit vectors, shape ``(..., 3)``.
 """
 
+from .estimate import Bounces, energies, evaluate, lobe
 from .fresnel import F82Tint, IndexOfRefraction, White
 from .surface import Surface
-from .walk import energies, evaluate, first_bounce, lobe
+from .walk import first_bounce
 
 __all__ = [
+    "Bounces",
     "F82Tint",
     "IndexOfRefraction",
     "Surface",

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Means over many walks, with their standard errors: energies per bounce and values of the BRDF."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from .ndf import sigma
+from .surface import Surface
+from .vectors import above_horizon
+from .walk import Vertex, bounces, connection, first_bounce
+
+_BATCH = 1 << 15  # walks advanced together: their arrays fit the cache
+
+
+@dataclass(frozen=True)
+class Bounces:
+    """Estimates per bounce, first axis bounce 1, 2, ...; last axis red, green, blue.
+
+    ``mean`` and ``variance`` (of the mean) have shape ``(bounces, ..., 3)``; ``remaining``
+    ``(..., 3)`` is the mean weight still inside after the last bounce, the truncated energy.
+    ``total_variance`` ``(..., 3)`` is the variance of the sum over bounces, which are correlated.
+    """
+
+    mean: np.ndarray
+    variance: np.ndarray
+    total_variance: np.ndarray
+    remaining: np.ndarray
+
+    @property
+    def standard_error(self) -> np.ndarray:
+        """Square root of ``variance``."""
+        return np.sqrt(self.variance)
+
+    @property
+    def total(self) -> np.ndarray:
+        """Sum over bounces, ``(..., 3)``."""
+        return self.mean.sum(axis=0)
+
+
+def energies(
+    wi: np.ndarray,
+    surface: Surface,
+    max_bounces: int = 16,
+    walks: int = 10_000,
+    rng: np.random.Generator | int = 0,
+) -> Bounces:
+    """Energy that leaves at each bounce for light arriving from ``wi`` ``(..., 3)``.
+
+    By the equality of both integrals this is also the radiance seen from ``wi`` in a uniform world
+    of radiance 1. ``walks`` per direction, at least 2; ``rng`` a Generator or a seed. Raises
+    ``ValueError`` for directions that are not unit vectors above the surface, and for counts < 1.
+    """
+    wi = above_horizon(wi, "wi")
+    flat = wi.reshape(-1, 3)
+    rng = np.random.default_rng(rng)
+    moments = _Moments(max_bounces, flat.shape[0], walks, surface)
+    for pairs, count in _batches(flat.shape[0], walks):
+        moments.start(pairs, count)
+        start = np.repeat(flat[pairs], count, axis=0)
+        for k, step in enumerate(bounces(start, surface, max_bounces, rng)):
+            moments.add(k, step.walk, step.leaving)
+        moments.finish(step, cut_off=k == max_bounces - 1)
+    return moments.result(wi.shape[:-1])
+
+
+def evaluate(
+    wi: np.ndarray,
+    wo: np.ndarray,
+    surface: Surface,
+    max_bounces: int = 16,
+    walks: int = 10_000,
+    rng: np.random.Generator | int = 0,
+) -> Bounces:
+    """BRDF times cos(wo) at each bounce, per steradian, by connecting every vertex to ``wo``.
+
+    ``wi`` and ``wo`` broadcast to ``(..., 3)``, each pair with ``walks`` walks of its own. Bounce 1
+    is exact, with variance 0. Other arguments and errors as in `energies`.
+    """
+    wi, wo = np.broadcast_arrays(above_horizon(wi, "wi"), above_horizon(wo, "wo"))
+    flat, target = wi.reshape(-1, 3), wo.reshape(-1, 3)
+    area_back = sigma(-target, surface)
+    rng = np.random.default_rng(rng)
+    moments = _Moments(max_bounces, flat.shape[0], walks, surface)
+    for pairs, count in _batches(flat.shape[0], walks):
+        moments.start(pairs, count)
+        start = np.repeat(flat[pairs], count, axis=0)
+        for k, step in enumerate(bounces(start, surface, max_bounces, rng)):
+            if k > 0:
+                pair = pairs.start + step.walk // count
+                value = connection(step.v, target[pair], surface, step.area, area_back[pair])
+                moments.add(k, step.walk, step.weight * value)
+        moments.finish(step, cut_off=k == max_bounces - 1)
+    moments.mean[0] = first_bounce(flat, target, surface)[:, : moments.channels]
+    return moments.result(wi.shape[:-1])
+
+
+def lobe(
+    wi: np.ndarray,
+    wo: np.ndarray,
+    surface: Surface,
+    max_bounces: int = 16,
+    walks: int = 10_000,
+    rng: np.random.Generator | int = 0,
+) -> Bounces:
+    """BRDF times cos(wo) of one ``wi`` ``(3,)`` against many ``wo`` ``(..., 3)``, per steradian.
+
+    All ``wo`` see the same walks, so the error is smooth over the lobe, and a thousand directions
+    cost little more than their connections. Otherwise as `evaluate`.
+    """
+    wi, wo = above_horizon(wi, "wi"), above_horizon(wo, "wo")
+    if wi.shape != (3,):
+        raise ValueError(f"wi has shape {wi.shape}; a lobe belongs to one direction, shape (3,)")
+    target = wo.reshape(-1, 3)
+    rng = np.random.default_rng(rng)
+    moments = _Moments(max_bounces, target.shape[0], walks, surface)
+    for _, count in _batches(1, walks):
+        steps = list(bounces(np.broadcast_to(wi, (count, 3)), surface, max_bounces, rng))
+        for j, one in enumerate(target):
+            moments.start(slice(j, j + 1), count)
+            for k, step in enumerate(steps[1:], start=1):
+                value = connection(step.v, one, surface, step.area)
+                moments.add(k, step.walk, step.weight * value)
+            moments.finish(steps[-1], cut_off=len(steps) == max_bounces)
+    moments.mean[0] = first_bounce(wi, target, surface)[:, : moments.channels]
+    return moments.result(wo.shape[:-1])
+
+
+def _batches(directions: int, walks: int) -> Iterator[tuple[slice, int]]:
+    """Slices of directions and numbers of walks whose product stays near the batch size."""
+    group = max(1, _BATCH // walks)
+    for first in range(0, directions, group):
+        left = walks
+        while left > 0:
+            yield slice(first, min(first + group, directions)), min(left, _BATCH)
+            left -= _BATCH
+
+
+class _Moments:
+    """Means and variances of the mean per bounce and direction, gathered batch by batch."""
+
+    def __init__(self, max_bounces: int, directions: int, walks: int, surface: Surface) -> None:
+        if max_bounces < 1:
+            raise ValueError(f"max_bounces is {max_bounces}; give 1 or more")
+        if walks < 2:
+            raise ValueError(f"walks is {walks}; give 2 or more, so that the variance is defined")
+        self.walks = walks
+        self.channels = surface.fresnel(np.ones(1)).shape[-1]
+        self.mean = np.zeros((max_bounces, directions, self.channels))
+        self.square = np.zeros_like(self.mean)
+        self.total = np.zeros((directions, self.channels))
+        self.total_square = np.zeros_like(self.total)
+        self.remaining = np.zeros_like(self.total)
+
+    def start(self, pairs: slice, count: int) -> None:
+        """Begin a batch of ``count`` walks for each direction of ``pairs``."""
+        self.pairs, self.count = pairs, count
+        self.sums = np.zeros((pairs.stop - pairs.start, count, self.channels))
+
+    def add(self, bounce: int, walk: np.ndarray, value: np.ndarray) -> None:
+        """Add values ``(n, C)`` of one bounce, of the walks numbered ``walk`` ``(n,)``."""
+        self.sums.reshape(-1, self.channels)[walk] += value
+        self.mean[bounce, self.pairs] += self._per_direction(walk, value)
+        self.square[bounce, self.pairs] += self._per_direction(walk, value * value)
+
+    def finish(self, last: Vertex, cut_off: bool) -> None:
+        """End the batch; ``cut_off`` tells whether walks were alive when it ended."""
+        self.total[self.pairs] += self.sums.sum(axis=1) / self.walks
+        self.total_square[self.pairs] += (self.sums * self.sums).sum(axis=1) / self.walks
+        if cut_off:
+            self.remaining[self.pairs] += self._per_direction(last.walk, last.staying)
+
+    def _per_direction(self, walk: np.ndarray, value: np.ndarray) -> np.ndarray:
+        """Sum of ``value`` ``(n, C)`` over each direction's walks, divided by all its walks."""
+        size = self.sums.shape[0]
+        direction = walk // self.count
+        full = np.broadcast_to(value, (walk.size, self.channels))
+        sums = [np.bincount(direction, channel, size) for channel in full.T]
+        return np.stack(sums, axis=-1) / self.walks
+
+    def result(self, shape: tuple[int, ...]) -> Bounces:
+        """The results, with directions reshaped to ``shape`` and three channels."""
+
+        def rgb(values: np.ndarray, *leading: int) -> np.ndarray:
+            return np.broadcast_to(values, (*values.shape[:-1], 3)).reshape(*leading, *shape, 3)
+
+        def variance_of_mean(square: np.ndarray, mean: np.ndarray) -> np.ndarray:
+            return np.maximum(square - mean * mean, 0.0) / (self.walks - 1)
+
+        variance = variance_of_mean(self.square, self.mean)
+        total_variance = variance_of_mean(self.total_square, self.total)
+        rows = self.mean.shape[0]
+        return Bounces(
+            rgb(self.mean, rows), rgb(variance, rows), rgb(total_variance), rgb(self.remaining)
+        )
