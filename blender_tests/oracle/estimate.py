@@ -9,7 +9,7 @@ import numpy as np
 from .ndf import sigma
 from .surface import Surface
 from .vectors import above_horizon
-from .walk import Vertex, bounces, connection, first_bounce
+from .walk import ROULETTE, Vertex, bounces, connection, first_bounce
 
 _BATCH = 1 << 15  # walks advanced together: their arrays fit the cache
 
@@ -45,12 +45,15 @@ def energies(
     max_bounces: int = 16,
     walks: int = 10_000,
     rng: np.random.Generator | int = 0,
+    roulette: float = ROULETTE,
 ) -> Bounces:
-    """Energy that leaves at each bounce for light arriving from ``wi`` ``(..., 3)``.
+    """Energy that leaves at each bounce of walks that start towards ``wi`` ``(..., 3)``.
 
     By the equality of both integrals this is also the radiance seen from ``wi`` in a uniform world
-    of radiance 1. ``walks`` per direction, at least 2; ``rng`` a Generator or a seed. Raises
-    ``ValueError`` for directions that are not unit vectors above the surface, and for counts < 1.
+    of radiance 1. ``walks`` per direction, at least 2; ``rng`` a Generator or a seed.
+    Walks lighter than ``roulette`` are thinned at random; where all but the first bounce is faint,
+    that makes rare, heavy survivors, and 0 gives the sounder error. Raises ``ValueError`` for
+    directions that are not unit vectors above the surface, and for counts that are too small.
     """
     wi = above_horizon(wi, "wi")
     flat = wi.reshape(-1, 3)
@@ -59,7 +62,7 @@ def energies(
     for pairs, count in _batches(flat.shape[0], walks):
         moments.start(pairs, count)
         start = np.repeat(flat[pairs], count, axis=0)
-        for k, step in enumerate(bounces(start, surface, max_bounces, rng)):
+        for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
             moments.add(k, step.walk, step.leaving)
         moments.finish(step, cut_off=k == max_bounces - 1)
     return moments.result(wi.shape[:-1])
@@ -72,6 +75,7 @@ def evaluate(
     max_bounces: int = 16,
     walks: int = 10_000,
     rng: np.random.Generator | int = 0,
+    roulette: float = ROULETTE,
 ) -> Bounces:
     """BRDF times cos(wo) at each bounce, per steradian, by connecting every vertex to ``wo``.
 
@@ -86,7 +90,7 @@ def evaluate(
     for pairs, count in _batches(flat.shape[0], walks):
         moments.start(pairs, count)
         start = np.repeat(flat[pairs], count, axis=0)
-        for k, step in enumerate(bounces(start, surface, max_bounces, rng)):
+        for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
             if k > 0:
                 pair = pairs.start + step.walk // count
                 value = connection(step.v, target[pair], surface, step.area, area_back[pair])
@@ -103,6 +107,7 @@ def lobe(
     max_bounces: int = 16,
     walks: int = 10_000,
     rng: np.random.Generator | int = 0,
+    roulette: float = ROULETTE,
 ) -> Bounces:
     """BRDF times cos(wo) of one ``wi`` ``(3,)`` against many ``wo`` ``(..., 3)``, per steradian.
 
@@ -116,7 +121,7 @@ def lobe(
     rng = np.random.default_rng(rng)
     moments = _Moments(max_bounces, target.shape[0], walks, surface)
     for _, count in _batches(1, walks):
-        steps = list(bounces(np.broadcast_to(wi, (count, 3)), surface, max_bounces, rng))
+        steps = list(bounces(np.broadcast_to(wi, (count, 3)), surface, max_bounces, rng, roulette))
         for j, one in enumerate(target):
             moments.start(slice(j, j + 1), count)
             for k, step in enumerate(steps[1:], start=1):

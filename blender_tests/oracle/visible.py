@@ -138,7 +138,7 @@ def slope_along(a: np.ndarray, u: np.ndarray) -> np.ndarray:
     # exp(-40^2) is far below the smallest double, and so is exp(-y (y + 2 |a|)) at the last bound
     low = np.where(a > 0.0, -40.0, 0.0)
     high = np.where(a > 0.0, np.minimum(a, 40.0), 1600.0 / (40.0 + depth))
-    for _ in range(110):
+    for _ in range(75):
         middle = 0.5 * (low + high)
         under = np.where(a > 0.0, _upper_side(up, middle) < u, _lower_side(depth, middle) > u)
         low = np.where(under, middle, low)

@@ -105,10 +105,14 @@ def first_bounce(wi: np.ndarray, wo: np.ndarray, surface: Surface) -> np.ndarray
 
 
 def bounces(
-    wi: np.ndarray, surface: Surface, max_bounces: int, rng: np.random.Generator
+    wi: np.ndarray,
+    surface: Surface,
+    max_bounces: int,
+    rng: np.random.Generator,
+    roulette: float = ROULETTE,
 ) -> Iterator[Vertex]:
     """Walk from each of ``wi`` ``(n, 3)``; yields bounce 1, 2, ... until ``max_bounces``, or until
-    no walk is alive."""
+    no walk is alive. ``roulette`` 0 ends only walks whose weight is 0."""
     v = np.asarray(wi, dtype=np.float64)
     walk = np.arange(v.shape[0])
     area = sigma(v, surface)
@@ -123,7 +127,7 @@ def bounces(
         vertex = Vertex(walk, v, area, weight, o, weight * surface.fresnel(cosine), p_exit, p_stay)
         yield vertex
         weight = vertex.staying
-        chance = weight.max(axis=1) / ROULETTE
+        chance = weight.max(axis=1) / max(roulette, 1e-300)
         alive = np.flatnonzero(rng.random(walk.size) < chance)
         if alive.size == 0:
             return

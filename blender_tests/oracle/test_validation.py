@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Input errors, the half vector's edges, and what the oracle may import."""
+
+import ast
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from blender_tests.oracle import Surface, energies, evaluate, first_bounce, lobe
+from blender_tests.oracle.vectors import direction, half_vector
+
+UP = direction(0.3)
+WHITE = Surface(0.5, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: Surface(0.0, 0.5), "alpha_x is 0.0"),
+        (lambda: Surface(0.5, np.nan), "alpha_y is nan"),
+        (lambda: Surface(0.5, 0.5, "PHONG"), "distribution is 'PHONG'"),
+        (lambda: Surface.from_roughness(1.5), "roughness is 1.5"),
+        (lambda: Surface.from_roughness(0.5, -0.1), "anisotropy is -0.1"),
+        (lambda: energies(np.array([0.0, 0.0, 2.0]), WHITE), "wi contains .*not a unit vector"),
+        (lambda: energies(np.array([0.0, np.nan, 1.0]), WHITE), "wi contains .*not a unit vector"),
+        (lambda: energies(np.array([0.0, 1.0]), WHITE), r"wi has shape \(2,\)"),
+        (lambda: energies(direction(1.6), WHITE), "wi contains .*not above the surface"),
+        (lambda: evaluate(UP, direction(2.0), WHITE), "wo contains .*not above the surface"),
+        (lambda: first_bounce(UP, np.zeros(3), WHITE), "wo contains .*not a unit vector"),
+        (lambda: lobe(np.stack([UP, UP]), UP, WHITE), r"wi has shape \(2, 3\)"),
+        (lambda: energies(UP, WHITE, max_bounces=0), "max_bounces is 0"),
+        (lambda: energies(UP, WHITE, walks=1), "walks is 1"),
+    ],
+)
+def test_bad_input_is_named(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_roughness_follows_the_metallic_bsdf():
+    # roughness 0.7, anisotropy 0.9: alpha 0.49, aspect sqrt(0.19)
+    surface = Surface.from_roughness(0.7, 0.9)
+    assert surface.alpha_x == pytest.approx(0.49 / np.sqrt(0.19), rel=1e-14)
+    assert surface.alpha_y == pytest.approx(0.49 * np.sqrt(0.19), rel=1e-14)
+
+
+def test_half_vector_of_opposite_directions_is_zero():
+    np.testing.assert_array_equal(half_vector(UP, -UP), np.zeros(3))
+    np.testing.assert_allclose(half_vector(UP, UP), UP, rtol=1e-15)
+
+
+def test_the_oracle_imports_nothing_of_what_it_judges():
+    allowed = {
+        "argparse", "ast", "collections", "dataclasses", "hashlib", "json", "math", "pathlib",
+        "statistics", "sys", "time", "typing", "numpy", "pytest", "tqdm", "OpenImageIO",
+        "blender_tests",
+    }  # fmt: skip
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    assert len(files) > 10
+    for file in files:
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                modules = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                assert node.level <= 1, f"{file.name} imports from outside the oracle"
+                modules = [] if node.level else [node.module]
+            else:
+                continue
+            for module in modules:
+                assert module.split(".")[0] in allowed, f"{file.name} imports {module}"
+                if module.startswith("blender_tests"):
+                    assert module.startswith("blender_tests.oracle"), f"{file.name}: {module}"
