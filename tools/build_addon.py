@@ -45,7 +45,7 @@ def stage(folder: Path) -> None:
     shaders = sorted((ROOT / "osl").glob("*.osl"))
     if not shaders:
         raise FileNotFoundError(f"{ROOT / 'osl'} has no .osl file")
-    for source in (*shaders, *sorted((ROOT / "osl").glob("include/*.h"))):
+    for source in (*shaders, *sorted((ROOT / "osl").rglob("*.h"))):
         target = folder / "osl" / source.relative_to(ROOT / "osl")
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(source, target)

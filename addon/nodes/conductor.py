@@ -29,7 +29,10 @@ STAMP_KEY = "microbounce_stamp"
 
 # Inputs of Cycles' Metallic BSDF, whose `fresnel_type` decides on the first two.
 _NATIVE_COLOR = {"F82": ("Base Color", "Edge Tint"), "PHYSICAL_CONDUCTOR": ("IOR", "Extinction")}
-_NATIVE_SURFACE = ("Roughness", "Anisotropy", "Rotation", "Normal", "Tangent")
+_NATIVE_SURFACE = ("Roughness", "Anisotropy", "Rotation", "Normal")
+
+# Below this length a tangent is no direction.
+_SHORTEST_TANGENT = 1e-6
 
 _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
 
@@ -201,6 +204,7 @@ def _make_fallback(
     GGX takes Cycles' own energy compensation, the nearest to further bounces; Beckmann has none.
     """
     nodes, links = group.nodes, group.links
+    tangent = _make_tangent(group, inputs)
 
     def metal(distribution: str, fresnel: str, y: float) -> bpy.types.NodeSocketShader:
         node = nodes.new("ShaderNodeBsdfMetallic")
@@ -209,6 +213,7 @@ def _make_fallback(
         node.location = (-200, y)
         for label in (*_NATIVE_COLOR[fresnel], *_NATIVE_SURFACE):
             links.new(inputs.outputs[label], node.inputs[label])
+        links.new(tangent, node.inputs["Tangent"])
         return node.outputs[0]
 
     def mix(
@@ -237,6 +242,35 @@ def _make_fallback(
         (150, -750),
     )
     return mix("Distribution", ggx, beckmann, (380, -400))
+
+
+def _make_tangent(
+    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node
+) -> bpy.types.NodeSocketVector:
+    """Add nodes that give Tangent, or Cycles' own where that has no length; return their output.
+
+    A native metal with a tangent of length 0, as from a UV map that is missing, is black.
+    """
+    nodes, links = group.nodes, group.links
+    length = nodes.new("ShaderNodeVectorMath")
+    length.operation = "LENGTH"
+    length.location = (-600, -700)
+    links.new(inputs.outputs["Tangent"], length.inputs[0])
+    given = nodes.new("ShaderNodeMath")
+    given.operation = "GREATER_THAN"
+    given.location = (-600, -850)
+    given.inputs[1].default_value = _SHORTEST_TANGENT
+    links.new(length.outputs["Value"], given.inputs[0])
+    geometry = nodes.new("ShaderNodeNewGeometry")
+    geometry.location = (-600, -1050)
+    mix = nodes.new("ShaderNodeMix")
+    mix.data_type = "VECTOR"
+    mix.label = "Tangent or Default"
+    mix.location = (-400, -850)
+    links.new(given.outputs[0], _input(mix, "Factor_Float"))
+    links.new(geometry.outputs["Tangent"], _input(mix, "A_Vector"))
+    links.new(inputs.outputs["Tangent"], _input(mix, "B_Vector"))
+    return next(s for s in mix.outputs if s.identifier == "Result_Vector")
 
 
 def _input(node: bpy.types.Node, identifier: str) -> bpy.types.NodeSocket:

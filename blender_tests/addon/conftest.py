@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fixtures of the extension's tests."""
+
+import pytest
+
+
+@pytest.fixture
+def empty_file():
+    """An empty file with factory settings; returns bpy."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return bpy
+
+
+@pytest.fixture
+def registered(empty_file):
+    """An empty file with the extension registered; returns bpy."""
+    import addon
+
+    addon.register()
+    yield empty_file
+    addon.unregister()

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The node group: sockets against the parameters, reuse, and failures that leave nothing behind."""
+
+import tempfile
+
+import pytest
+
+from addon.core import VERSION
+from addon.core.oso import oso_parameters
+from addon.core.parameters import CONDUCTOR
+from addon.core.shader_source import ShaderSourceError, inlined_source
+from blender_tests.addon.support import ROOT
+
+# Blender stores sockets as 32-bit floats; so do compiled shaders.
+FLOAT32 = 1e-6
+
+SOCKETS = {
+    "COLOR": "NodeSocketColor",
+    "FLOAT": "NodeSocketFloat",
+    "INT": "NodeSocketInt",
+    "VECTOR": "NodeSocketVector",
+    "NORMAL": "NodeSocketVector",
+    "TANGENT": "NodeSocketVector",
+}
+
+
+@pytest.fixture
+def conductor(empty_file):
+    from addon.nodes import conductor
+
+    return conductor
+
+
+def numbers(value):
+    return list(value) if hasattr(value, "__len__") else [value]
+
+
+def contents(bpy):
+    blocks = (bpy.data.node_groups, bpy.data.texts, bpy.data.materials)
+    return [sorted(block.name for block in collection) for collection in blocks]
+
+
+def test_shader_declares_the_parameters(conductor):
+    from addon.nodes.script import compile_source
+
+    declared = oso_parameters(compile_source(inlined_source(conductor.SHADER_NAME)))
+    inputs = [p for p in declared if not p.output]
+    assert [p.name for p in inputs] == [p.identifier for p in CONDUCTOR]
+    types = {"COLOR": "color", "FLOAT": "float", "INT": "int", "NORMAL": "normal"}
+    for shader, parameter in zip(inputs, CONDUCTOR, strict=True):
+        assert shader.type == types.get(parameter.kind, "vector"), shader.name
+        if not shader.computed:
+            assert list(shader.default) == pytest.approx(numbers(parameter.default), rel=FLOAT32)
+    assert [(p.name, p.type) for p in declared if p.output] == [
+        ("BSDF", "closure color"),
+        ("Active", "float"),
+    ]
+
+
+def test_sockets_are_the_parameters(conductor):
+    group = conductor.conductor_group()
+    sockets = {item.name: item for item in group.interface.items_tree if item.item_type == "SOCKET"}
+    assert sockets.pop("BSDF").socket_type == "NodeSocketShader"
+    assert set(sockets) == {parameter.label for parameter in CONDUCTOR}
+    for parameter in CONDUCTOR:
+        socket = sockets[parameter.label]
+        assert socket.in_out == "INPUT"
+        assert socket.socket_type == SOCKETS[parameter.kind]
+        assert socket.description == parameter.description
+        default = numbers(parameter.default) + [1.0] * (parameter.kind == "COLOR")
+        assert numbers(socket.default_value) == pytest.approx(default, rel=FLOAT32)
+        assert socket.hide_value == (parameter.kind in ("NORMAL", "TANGENT"))
+        assert socket.parent.name == parameter.panel
+        if parameter.kind != "COLOR":
+            limits = (socket.min_value, socket.max_value)
+            assert limits == pytest.approx(parameter.legal, rel=FLOAT32)
+
+
+def test_script_node_carries_source_and_bytecode(conductor):
+    group = conductor.conductor_group()
+    (script,) = [node for node in group.nodes if node.bl_idname == "ShaderNodeScript"]
+    assert script.script.as_string() == inlined_source(conductor.SHADER_NAME)
+    assert script.bytecode.startswith("OpenShadingLanguage")
+    assert script.bytecode_hash
+    assert [s.identifier for s in script.inputs] == [p.identifier for p in CONDUCTOR]
+    assert all(socket.is_linked for socket in script.inputs)
+    assert [s.identifier for s in script.outputs] == ["BSDF", "Active"]
+    (factor,) = [link.to_socket for link in script.outputs["Active"].links]
+    assert factor.default_value == 0.0, "the fallback would not show without OSL"
+
+
+def test_group_is_stamped_and_reused(conductor, empty_file):
+    group = conductor.conductor_group()
+    assert group[conductor.VERSION_KEY] == VERSION
+    assert VERSION in group.description
+    assert conductor.conductor_group() == group
+    assert contents(empty_file)[:2] == [["Microbounce Conductor"], ["microbounce_conductor.osl"]]
+
+
+def test_group_of_another_version_is_left_alone(conductor, empty_file):
+    old = conductor.conductor_group()
+    old[conductor.STAMP_KEY] = "0123456789abcdef"
+    new = conductor.conductor_group()
+    assert new != old
+    assert len(empty_file.data.node_groups) == 2
+
+
+def test_material_takes_values(conductor):
+    material = conductor.conductor_material(
+        "Gold", BaseColor=(1, 0.8, 0.3), Roughness=0.8, Quality="Exact", MaxBounces=5
+    )
+    (node,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup"]
+    assert list(node.inputs["Base Color"].default_value) == pytest.approx([1, 0.8, 0.3, 1])
+    assert node.inputs["Roughness"].default_value == pytest.approx(0.8)
+    assert node.inputs["Quality"].default_value == 3
+    assert node.inputs["Max Bounces"].default_value == 5
+    assert node.outputs["BSDF"].links[0].to_node.bl_idname == "ShaderNodeOutputMaterial"
+
+
+@pytest.mark.parametrize(
+    ("values", "error"),
+    [({"Rough": 1}, TypeError), ({"Roughness": 2}, ValueError), ({"Walks": 1.5}, TypeError)],
+)
+def test_material_with_bad_values_is_not_made(conductor, empty_file, values, error):
+    before = contents(empty_file)
+    with pytest.raises(error, match=next(iter(values))):
+        conductor.conductor_material("Bad", **values)
+    assert contents(empty_file) == before
+
+
+@pytest.mark.parametrize(
+    ("source", "error", "words"),
+    [
+        ("shader toy(float a = 0) { a = ; }", "ShaderCompileError", "shader.osl:"),
+        ("shader toy(float a = 0) { }", "ValueError", "The shader declares a; the extension"),
+        (None, "ShaderSourceError", "Reinstall the extension"),
+    ],
+)
+def test_a_failure_leaves_the_file_as_it_was(
+    conductor, empty_file, monkeypatch, source, error, words
+):
+    def damaged(name):
+        if source is None:
+            raise ShaderSourceError(f"{name}.osl is missing. Reinstall the extension")
+        return source
+
+    monkeypatch.setattr(conductor, "inlined_source", damaged)
+    before = contents(empty_file)
+    with pytest.raises((RuntimeError, ValueError)) as caught:
+        conductor.conductor_material("Bad")
+    assert type(caught.value).__name__ == error
+    assert words in str(caught.value)
+    assert contents(empty_file) == before
+
+
+def test_compiler_message_names_line_and_cause(empty_file):
+    from addon.nodes.script import ShaderCompileError, compile_source
+
+    with pytest.raises(ShaderCompileError) as caught:
+        compile_source("shader toy(float a = 0)\n{\n    a = missing_name;\n}\n")
+    assert "'missing_name' was not declared" in str(caught.value)
+    assert tempfile.gettempdir() not in str(caught.value)
+
+
+def test_unwritable_temporary_folder_names_remedy(conductor, empty_file, monkeypatch, tmp_path):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
+    before = contents(empty_file)
+    with pytest.raises(RuntimeError, match=r"temporary folder.*gone.*TMPDIR"):
+        conductor.conductor_group()
+    assert contents(empty_file) == before
+
+
+def test_nothing_is_written_beside_the_extension(conductor):
+    def files():
+        found = [*(ROOT / "addon").rglob("*"), *(ROOT / "osl").rglob("*")]
+        return {(p, p.stat().st_mtime_ns) for p in found if "__pycache__" not in p.parts}
+
+    before = files()
+    conductor.conductor_material("Metal")
+    assert files() == before
+
+
+def test_without_a_compiler_the_group_is_made_and_completed_later(
+    conductor, empty_file, monkeypatch
+):
+    from addon.nodes import script
+
+    with monkeypatch.context() as patch:
+        patch.setattr(script, "osl_compiler_available", lambda: False)
+        material = conductor.conductor_material("Metal")
+        group = conductor.conductor_group()
+        assert not conductor.has_bytecode(group)
+    completed = conductor.conductor_group()
+    assert conductor.has_bytecode(completed)
+    assert completed.name == conductor.GROUP_NAME
+    (node,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup"]
+    assert node.node_tree == completed
+    assert len(empty_file.data.node_groups) == 1

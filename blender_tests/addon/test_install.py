@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The zip: its contents, its installation, and files that render without it."""
+
+import subprocess
+import sys
+import zipfile
+
+import numpy as np
+import pytest
+
+from blender_tests.addon.support import ROOT, read_picture, run_blender
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory):
+    """The zip, built by the same command as `make addon` but elsewhere."""
+    folder = tmp_path_factory.mktemp("zip")
+    done = subprocess.run(
+        [
+            sys.executable,
+            str(ROOT / "tools" / "build_addon.py"),
+            *("--output", str(folder / "dist"), "--work", str(folder / "build")),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    (path,) = (folder / "dist").iterdir()
+    return path
+
+
+def test_zip_holds_the_extension_and_nothing_else(archive):
+    names = set(zipfile.ZipFile(archive).namelist())
+    expected = {"LICENSE"}
+    for path in (ROOT / "addon").rglob("*"):
+        if path.is_file() and "__pycache__" not in path.parts:
+            expected.add(path.relative_to(ROOT / "addon").as_posix())
+    shaders = [*(ROOT / "osl").glob("*.osl"), *(ROOT / "osl").rglob("*.h")]
+    expected |= {path.relative_to(ROOT).as_posix() for path in shaders}
+    assert names == expected
+    assert "osl/microbounce_conductor.osl" in names
+    assert "blender_manifest.toml" in names
+
+
+def test_a_damaged_manifest_is_refused(tmp_path):
+    sys.path.insert(0, str(ROOT / "tools"))
+    try:
+        import build_addon
+    finally:
+        sys.path.pop(0)
+    folder = tmp_path / "broken"
+    folder.mkdir()
+    build_addon.stage(folder)
+    manifest = folder / "blender_manifest.toml"
+    text = manifest.read_text(encoding="utf-8")
+    manifest.write_text(text.replace('"add-on"', '"gadget"'), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(build_addon.extension_builder()), "validate", str(folder)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode != 0
+
+
+INSTALL = """
+from blender_tests.addon.support import small_scene
+installed = bpy.ops.extensions.package_install_files(
+    filepath={archive!r}, repo="user_default", enable_on_install=True
+)
+name = "bl_ext.user_default.microbounce"
+"""
+
+MAKE = (
+    INSTALL
+    + """
+scene, sphere = small_scene(osl=True)
+bpy.ops.preferences.addon_enable(module=name)  # the factory settings switched it off
+sphere.data.materials.clear()
+bpy.ops.microbounce.add_conductor_material()
+node = next(n for n in sphere.active_material.node_tree.nodes if n.type == "GROUP")
+node.inputs["Roughness"].default_value = 0.8
+node.inputs["Anisotropy"].default_value = {anisotropy}
+scene.render.filepath = {exr!r}
+bpy.ops.render.render(write_still=True)
+bpy.ops.wm.save_as_mainfile(filepath={blend!r})
+import addon_utils
+finish({{
+    "installed": list(installed),
+    "loaded": addon_utils.check(name),
+    "from": sys.modules[name].__file__,
+    "bytecode": any(n.type == "SCRIPT" and n.bytecode for n in node.node_tree.nodes),
+}})
+"""
+)
+
+RENDER = """
+bpy.ops.wm.open_mainfile(filepath={blend!r})
+bpy.context.scene.render.filepath = {exr!r}
+bpy.ops.render.render(write_still=True)
+finish({{
+    "addons": [addon.module for addon in bpy.context.preferences.addons],
+    "modules": [name for name in sys.modules if "microbounce" in name or name == "addon"],
+    "operator": "add_conductor_material" in dir(bpy.ops.microbounce),
+}})
+"""
+
+
+@pytest.mark.parametrize("anisotropy", [0.0, 0.9])
+def test_file_made_with_the_installed_zip_renders_the_same_without_it(
+    archive, tmp_path, anisotropy
+):
+    blend = str(tmp_path / "metal.blend")
+    with_it, without = tmp_path / "with.exr", tmp_path / "without.exr"
+    made = run_blender(
+        MAKE.format(archive=str(archive), exr=str(with_it), blend=blend, anisotropy=anisotropy),
+        tmp_path,
+    )
+    assert made["installed"] == ["FINISHED"]
+    assert made["loaded"] == [True, True]
+    assert str(tmp_path) in made["from"], "it runs from the private folder"
+    assert made["bytecode"]
+
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    script = RENDER.format(blend=blend, exr=str(without))
+    rendered = run_blender(script, elsewhere, modules=False)
+    assert not any("microbounce" in module for module in rendered["addons"])
+    assert rendered["modules"] == []
+    assert not rendered["operator"]
+
+    picture = read_picture(with_it)
+    assert picture.max() > 0.1, "the picture is black"
+    assert np.isfinite(picture).all()
+    assert np.array_equal(picture, read_picture(without))
+
+
+def test_installed_shader_that_is_missing_gives_the_error(archive, tmp_path):
+    script = (
+        INSTALL
+        + """
+from pathlib import Path
+folder = Path(sys.modules[name].__file__).parent
+(folder / "osl" / "microbounce_conductor.osl").unlink()
+bpy.ops.mesh.primitive_cube_add()
+before = len(bpy.data.materials), len(bpy.data.texts), len(bpy.data.node_groups)
+try:
+    bpy.ops.microbounce.add_conductor_material()
+    message = ""
+except RuntimeError as error:
+    message = str(error)
+after = len(bpy.data.materials), len(bpy.data.texts), len(bpy.data.node_groups)
+finish({{"message": message, "folder": str(folder), "before": before, "after": after}})
+"""
+    )
+    result = run_blender(script.format(archive=str(archive)), tmp_path)
+    assert result["folder"] in result["message"]
+    assert "microbounce_conductor.osl is missing. Reinstall the extension" in result["message"]
+    assert result["before"] == result["after"]
