@@ -33,6 +33,7 @@ def write(path: Path, layers: dict[str, np.ndarray], metadata: dict[str, str]) -
     spec = oiio.ImageSpec(columns, rows, len(planes), oiio.FLOAT)
     spec.channelnames = names
     spec.attribute("compression", "zip")
+    spec.attribute("DateTime", "1970:01:01 00:00:00")  # else the time of writing is stored
     for key, value in metadata.items():
         spec.attribute(_PREFIX + key, str(value))
     output = oiio.ImageOutput.create(str(path))

@@ -80,7 +80,9 @@ def sun_picture(
     """Render the sphere under the sun with ``walks`` walks for each of a pixel's 64 points.
 
     Returns pictures ``mean``, ``error`` (standard error of the mean), ``single`` (first bounce
-    alone, exact), and the ``mask`` ``(rows, columns)``; all 0 outside the mask.
+    alone, exact), and the ``mask`` ``(rows, columns)``; all 0 outside the mask. Pixels are
+    independent. The values of walks are skewed, so a test over many pixels should divide the sum
+    of differences by the root of summed squared errors, not average each pixel's own ratio.
     """
 
     def shade(frames: tuple[np.ndarray, ...], rng: np.random.Generator) -> tuple[np.ndarray, ...]:

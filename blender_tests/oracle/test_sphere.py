@@ -107,19 +107,23 @@ def test_every_case_has_its_file_and_nothing_else_is_there():
 def test_reference_agrees_with_a_new_rendering_of_some_rows(case):
     stored, _ = exr.read(references.FOLDER / f"{case.name}.exr")
     render = sphere.furnace_picture if case.furnace else sphere.sun_picture
-    fresh = render(case.surface, 16, 1000 + case.seed, progress=lambda rows: ROWS)
+    walks = max(2, case.walks // 8)
+    fresh = render(case.surface, walks, 1000 + case.seed, progress=lambda rows: ROWS)
     lit = (stored["mask"] > 0.0) & (stored["mean"].max(axis=-1) > 1e-4)
     lit[[row for row in range(len(lit)) if row not in ROWS]] = False
-    assert lit.sum() > 100
+    assert lit.sum() > 50
     if "single" in stored:
         # float32 in the file
         np.testing.assert_allclose(stored["single"][lit], fresh["single"][lit], rtol=1e-6)
-    error = np.hypot(stored["error"][lit], fresh["error"][lit])
-    # float32 rounding where the error is smaller still
-    z = (stored["mean"][lit] - fresh["mean"][lit]) / (error + 1e-6 * stored["mean"][lit])
-    # about 450 pixels and channels; the mean of independent z is below 4 / sqrt(pixels)
-    assert np.abs(z.mean(axis=0)).max() < 4.0 / np.sqrt(lit.sum())
-    assert np.sqrt((z * z).mean()) < 1.5
+    difference = stored["mean"][lit] - fresh["mean"][lit]
+    # errors are pooled before dividing: walks are skewed, so that a pixel with too low a mean has
+    # too low an error as well, and single z-values lean to one side
+    variance = stored["error"][lit] ** 2 + fresh["error"][lit] ** 2
+    assert np.abs(difference.sum(axis=0) / np.sqrt(variance.sum(axis=0))).max() < 4.0
+    # 57 pixels or more know their spread to 4 * sqrt(2 / 57) = 75 % at 4 standard errors
+    spread = (difference**2).sum(axis=0) / variance.sum(axis=0)
+    assert spread.min() > 0.25
+    assert spread.max() < 1.75
 
 
 def test_rows_of_a_picture_do_not_depend_on_each_other():
