@@ -2,6 +2,7 @@
 """Compiles OSL and fills a script node, so that the file renders without this extension."""
 
 import hashlib
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -11,6 +12,8 @@ import bpy
 from ..core.oso import check_against
 from ..core.parameters import CONDUCTOR, Parameter
 from .capture import captured_output
+
+_FOLDER = re.compile(r'%filename\{"[^"]*[/\\]')
 
 SOCKET_TYPES = {
     "COLOR": "NodeSocketColor",
@@ -59,12 +62,18 @@ def compile_source(source: str) -> str:
             if not ok or not oso.is_file():
                 detail = message.strip().replace(str(osl), osl.name) or "no message was given"
                 raise ShaderCompileError(f"The shader does not compile: {detail}")
-            return oso.read_text(encoding="utf-8")
+            return _without_paths(oso.read_text(encoding="utf-8"))
     except OSError as error:
         raise ShaderCompileError(
             f"The shader cannot be compiled in the temporary folder: {error}. Set a writable "
             "folder in the environment variable TMPDIR (TEMP on Windows)"
         ) from error
+
+
+def _without_paths(bytecode: str) -> str:
+    """Drop comments and shorten file names: the same source gives the same bytecode anywhere."""
+    lines = [line for line in bytecode.splitlines() if not line.startswith("#")]
+    return _FOLDER.sub(r'%filename{"', "\n".join(lines)) + "\n"
 
 
 def fill_script_node(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The node group: sockets against the parameters, reuse, and failures that leave nothing behind."""
 
+import re
 import tempfile
 
 import pytest
@@ -87,6 +88,18 @@ def test_script_node_carries_source_and_bytecode(conductor):
     assert [s.identifier for s in script.outputs] == ["BSDF", "Active"]
     (factor,) = [link.to_socket for link in script.outputs["Active"].links]
     assert factor.default_value == 0.0, "the fallback would not show without OSL"
+
+
+def test_bytecode_names_no_folder_and_is_reproducible(conductor):
+    from addon.nodes.script import compile_source
+
+    source = inlined_source(conductor.SHADER_NAME)
+    bytecode = compile_source(source)
+    assert '%filename{"shader.osl"}' in bytecode
+    names = re.findall(r'%filename\{"([^"]*)"', bytecode)
+    assert not [name for name in names if "/" in name or "\\" in name]
+    assert tempfile.gettempdir() not in bytecode
+    assert compile_source(source) == bytecode
 
 
 def test_group_is_stamped_and_reused(conductor, empty_file):
