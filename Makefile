@@ -20,10 +20,10 @@ help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 demo: ## Render the showcase scene with Single, Cycles Multiscatter and Microbounce; compare
-	@$(any) scenes/demo.py
+	@$(any) -m scenes.demo
 
 demo-picture: ## The same, and renew the picture in docs/ that the README shows
-	@$(any) scenes/demo.py --picture docs/comparison.jpg
+	@$(any) -m scenes.demo --picture docs/comparison.jpg
 
 test: ## Run every test on one Blender version (5.2, or 4.5 where only Python 3.11 is there)
 	@$(any) $(pytest)
@@ -55,7 +55,7 @@ references: ## Render the oracle's reference pictures anew (about ten minutes)
 	@$(any) -m blender_tests.oracle.references
 
 scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both versions open them
-	@$(on_4.5) scenes/build_all.py
+	@$(on_4.5) -m scenes.build_all
 
 clean: ## Remove what was built; the virtual environments stay
 	@rm -rf build dist .pytest_cache .ruff_cache .hypothesis

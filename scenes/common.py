@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the scripts that build the scenes share: an empty file, settings, the unit sphere."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import bpy
+from mathutils import Vector
+
+FOLDER = Path(__file__).resolve().parent
+
+# The sphere's facets span 0.7 degrees: interpolated normals are then within 1e-4 rad of the
+# analytic sphere's, far below what an alpha of 0.01 resolves.
+SPHERE_SEGMENTS = 512
+SPHERE_RINGS = 256
+
+
+def start_scene(resolution: tuple[int, int], samples: int) -> bpy.types.Scene:
+    """Empty the file and return its scene, set to Cycles with OSL on the CPU.
+
+    Nothing that biases pixels is on: no clamping, denoiser, adaptive sampling or light threshold.
+    """
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.render.resolution_x, scene.render.resolution_y = resolution
+    scene.render.resolution_percentage = 100
+    scene.render.film_transparent = False
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.shading_system = True
+    cycles.samples = samples
+    cycles.seed = 0
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.sample_clamp_direct = 0.0
+    cycles.sample_clamp_indirect = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.caustics_reflective = True
+    cycles.caustics_refractive = True
+    cycles.blur_glossy = 0.0
+    scene.world = bpy.data.worlds.new("World")
+    return scene
+
+
+def use_box_filter(scene: bpy.types.Scene) -> None:
+    """Make each pixel the plain mean over its own square."""
+    scene.cycles.pixel_filter_type = "BOX"
+    scene.cycles.filter_width = 1.0
+
+
+def set_world(scene: bpy.types.Scene, radiance: tuple[float, float, float]) -> None:
+    """Surround the scene with a uniform radiance, found by the paths that leave the scene alone."""
+    world = scene.world
+    if bpy.app.version < (5, 0, 0):  # later it is always on, and setting it is deprecated
+        world.use_nodes = True
+    tree = world.node_tree
+    tree.nodes.clear()
+    background = tree.nodes.new("ShaderNodeBackground")
+    background.inputs["Color"].default_value = (*radiance, 1.0)
+    output = tree.nodes.new("ShaderNodeOutputWorld")
+    output.location = (250, 0)
+    tree.links.new(background.outputs[0], output.inputs["Surface"])
+    world.cycles.sampling_method = "NONE"
+
+
+def add_object(name: str, data: bpy.types.ID | None) -> bpy.types.Object:
+    """Add an object with this data to the scene."""
+    added = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(added)
+    return added
+
+
+def aim(target: bpy.types.Object, direction: tuple[float, float, float]) -> None:
+    """Turn a camera or light so that it looks along `direction` (any length), up being +Z."""
+    target.rotation_euler = Vector(direction).to_track_quat("-Z", "Y").to_euler()
+
+
+def add_front_camera(scene: bpy.types.Scene) -> bpy.types.Object:
+    """Add the fixtures' camera: orthographic, at (0, -5, 0), looking along +Y, 2.1 units wide."""
+    data = bpy.data.cameras.new("Camera")
+    data.type = "ORTHO"
+    data.ortho_scale = 2.1
+    data.clip_end = 20.0
+    camera = add_object("Camera", data)
+    camera.location = (0.0, -5.0, 0.0)
+    aim(camera, (0.0, 1.0, 0.0))
+    scene.camera = camera
+    return camera
+
+
+def add_unit_sphere(material: bpy.types.Material) -> bpy.types.Object:
+    """Add a smooth unit sphere at the origin, its poles on Z.
+
+    Geometry nodes make it, so that a sphere this fine takes no room in the file.
+    """
+    tree = bpy.data.node_groups.new("Unit Sphere", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    sphere = tree.nodes.new("GeometryNodeMeshUVSphere")
+    sphere.inputs["Segments"].default_value = SPHERE_SEGMENTS
+    sphere.inputs["Rings"].default_value = SPHERE_RINGS
+    sphere.inputs["Radius"].default_value = 1.0
+    smooth = tree.nodes.new("GeometryNodeSetShadeSmooth")
+    assign = tree.nodes.new("GeometryNodeSetMaterial")
+    assign.inputs["Material"].default_value = material
+    output = tree.nodes.new("NodeGroupOutput")
+    chain = (sphere, smooth, assign, output)
+    for index, (first, second) in enumerate(pairwise(chain)):
+        tree.links.new(first.outputs[0], second.inputs[0])
+        second.location = (200 * (index + 1), 0)
+    mesh = bpy.data.meshes.new("Sphere")
+    mesh.materials.append(material)
+    added = add_object("Sphere", mesh)
+    added.modifiers.new("Unit Sphere", "NODES").node_group = tree
+    return added
+
+
+def save(name: str) -> Path:
+    """Save the file as scenes/`name`.blend, compressed, without a trace of this machine."""
+    path = FOLDER / f"{name}.blend"
+    bpy.context.scene.render.filepath = f"//../build/{name}"
+    bpy.context.preferences.filepaths.save_version = 0
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, relative_remap=True)
+    print(f"{path.name}: {path.stat().st_size / 1024:.0f} KB")
+    return path

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Times the samples of a render, without the time that its start takes."""
+
+import statistics
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import bpy
+
+
+@dataclass(frozen=True)
+class SampleTimes:
+    """Seconds per sample of several variants, measured in interleaved rounds.
+
+    seconds -- by name of the variant, one figure a round, in the order of the rounds
+    """
+
+    seconds: dict[str, list[float]]
+
+    def median(self, variant: str) -> float:
+        """Return the median over the rounds, in seconds per sample."""
+        return statistics.median(self.seconds[variant])
+
+    def ratio(self, variant: str, baseline: str) -> float:
+        """Return the median over the rounds of variant / baseline.
+
+        Both times of a ratio lie next to one another, so that a load which comes and goes on the
+        machine weighs on both.
+        """
+        return statistics.median(self.ratios(variant, baseline))
+
+    def ratios(self, variant: str, baseline: str) -> list[float]:
+        """Return variant / baseline of every round."""
+        pairs = zip(self.seconds[variant], self.seconds[baseline], strict=True)
+        return [ours / theirs for ours, theirs in pairs]
+
+
+def time_samples(
+    scene: bpy.types.Scene,
+    variants: Mapping[str, Callable[[], None]],
+    samples: int = 16,
+    rounds: int = 5,
+) -> SampleTimes:
+    """Measure the seconds per sample of every variant of `scene`.
+
+    variants -- by name, what to call to switch the scene to the variant
+    samples  -- number of samples that are timed, 1 or more
+    rounds   -- how often all variants are timed, one after the other, 1 or more
+
+    In each round a variant is rendered once to warm up (it builds the scene and compiles the
+    shaders), then with 1 sample and with 1 + `samples`: the difference of these two times
+    counts. The scene's samples, seed and persistent data are put back at the end.
+    Raises ValueError for a number below 1 and RuntimeError where a render takes no time at all.
+    """
+    if samples < 1 or rounds < 1:
+        raise ValueError(f"samples is {samples}, rounds is {rounds}: both must be 1 or more")
+    seconds: dict[str, list[float]] = {name: [] for name in variants}
+    kept = scene.cycles.samples, scene.cycles.seed, scene.render.use_persistent_data
+    # Keeps the built scene, so that the second render of a pair starts as fast as it can.
+    scene.render.use_persistent_data = True
+    try:
+        for turn in range(rounds):
+            scene.cycles.seed = turn
+            for name, switch in variants.items():
+                switch()
+                _render(scene, 1)
+                start = _render(scene, 1)
+                seconds[name].append((_render(scene, 1 + samples) - start) / samples)
+                if seconds[name][-1] <= 0.0:
+                    raise RuntimeError(
+                        f"{name}: {samples} samples took no measurable time; time more of them"
+                    )
+    finally:
+        scene.cycles.samples, scene.cycles.seed, scene.render.use_persistent_data = kept
+    return SampleTimes(seconds)
+
+
+def _render(scene: bpy.types.Scene, samples: int) -> float:
+    """Render without writing a picture; return the seconds it took."""
+    scene.cycles.samples = samples
+    begin = time.perf_counter()
+    bpy.ops.render.render(write_still=False, scene=scene.name)
+    return time.perf_counter() - begin
