@@ -22,16 +22,13 @@ class Status:
         return " ".join(part for part in (self.reason, self.remedy) if part)
 
 
-def osl_state(
-    built_with_osl: bool, engine: str, shading_system: bool, device: str, backend: str
-) -> Status:
+def osl_state(built_with_osl: bool, engine: str, shading_system: bool, device: str) -> Status:
     """Return the status for a scene.
 
     built_with_osl -- whether this Blender has Cycles with Open Shading Language
     engine         -- the scene's render engine, such as "CYCLES"
     shading_system -- the scene's switch for Open Shading Language
-    device         -- the scene's device, "CPU" or "GPU"
-    backend        -- the preferences' compute device type, such as "OPTIX" or "NONE"
+    device         -- what Cycles renders on: "CPU", or the type of the GPUs, such as "OPTIX"
     """
     if not built_with_osl:
         return Status(
@@ -52,11 +49,10 @@ def osl_state(
             "Switch it on in the render properties.",
             can_enable=True,
         )
-    # With no backend chosen Cycles renders on the CPU, whatever the scene says.
-    if device == "GPU" and backend not in ("OPTIX", "NONE"):
+    if device not in ("CPU", "OPTIX"):
         return Status(
             False,
-            f"{backend} devices have no Open Shading Language; the simple metal shows.",
+            f"{device} devices have no Open Shading Language; the simple metal shows.",
             "Render on the CPU or with OptiX.",
         )
     return Status(True)

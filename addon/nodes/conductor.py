@@ -12,7 +12,7 @@ import hashlib
 import bpy
 
 from ..core import VERSION
-from ..core.parameters import CONDUCTOR, Parameter
+from ..core.parameters import CONDUCTOR, FRESNEL_PANEL, Parameter
 from ..core.shader_source import inlined_source
 from .script import (
     SOCKET_TYPES,
@@ -144,7 +144,7 @@ def _make_interface(group: bpy.types.ShaderNodeTree) -> None:
         if not parameter.panel:
             _make_socket(interface, parameter, None)
     for name in dict.fromkeys(parameter.panel for parameter in CONDUCTOR if parameter.panel):
-        panel = interface.new_panel(name)
+        panel = interface.new_panel(name, default_closed=name == FRESNEL_PANEL)
         for parameter in CONDUCTOR:
             if parameter.panel == name:
                 _make_socket(interface, parameter, panel)
@@ -177,7 +177,7 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, source: str, bytecode: str) -> 
     inputs.location = (-600, 0)
     script = nodes.new("ShaderNodeScript")
     script.name = script.label = "Multiple Bounces"
-    script.location = (-200, 500)
+    script.location = (-200, 620)
     script.width = 240
     fill_script_node(script, source, bytecode, f"{SHADER_NAME}.osl")
     for parameter in CONDUCTOR:
@@ -194,6 +194,8 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, source: str, bytecode: str) -> 
     output = nodes.new("NodeGroupOutput")
     output.location = (800, 100)
     links.new(switch.outputs[0], output.inputs["BSDF"])
+    for node in nodes:
+        node.select = False
 
 
 def _make_fallback(

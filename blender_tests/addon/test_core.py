@@ -141,13 +141,12 @@ def test_shader_and_specification_that_differ_are_refused():
 @pytest.mark.parametrize(
     ("state", "ok", "can_enable", "words"),
     [
-        ((True, "CYCLES", True, "CPU", "NONE"), True, False, ""),
-        ((True, "CYCLES", True, "GPU", "OPTIX"), True, False, ""),
-        ((True, "CYCLES", True, "GPU", "NONE"), True, False, ""),
-        ((True, "CYCLES", True, "GPU", "HIP"), False, False, "HIP devices have no"),
-        ((True, "CYCLES", False, "CPU", "NONE"), False, True, "Switch it on"),
-        ((True, "BLENDER_EEVEE", True, "CPU", "NONE"), False, False, "Choose Cycles"),
-        ((False, "CYCLES", True, "CPU", "NONE"), False, False, "built without"),
+        ((True, "CYCLES", True, "CPU"), True, False, ""),
+        ((True, "CYCLES", True, "OPTIX"), True, False, ""),
+        ((True, "CYCLES", True, "HIP"), False, False, "HIP devices have no"),
+        ((True, "CYCLES", False, "CPU"), False, True, "Switch it on"),
+        ((True, "BLENDER_EEVEE", True, "CPU"), False, False, "Choose Cycles"),
+        ((False, "CYCLES", True, "CPU"), False, False, "built without"),
     ],
 )
 def test_osl_state(state, ok, can_enable, words):

@@ -176,16 +176,26 @@ def test_enable_osl(registered):
         enable()
 
 
-def test_device_without_osl_is_reported(registered):
+def test_device_without_osl_is_reported(registered, monkeypatch, capfd):
     from addon.ops.osl import osl_status
 
-    scene = registered.context.scene
+    context = registered.context
+    scene = context.scene
     scene.render.engine = "CYCLES"
+    scene.cycles.device = "GPU"
+    preferences = context.preferences.addons["cycles"].preferences
+    preferences.compute_device_type = "CUDA"
+    monkeypatch.setattr(type(preferences), "has_active_device", lambda self: False)
     scene.cycles.shading_system = True
-    assert osl_status(registered.context).ok
-    preferences = registered.context.preferences.addons["cycles"].preferences
-    present = preferences.bl_rna.properties["compute_device_type"]
-    assert present is not None, "osl_status reads this preference"
+    assert osl_status(context).ok, "without a GPU Cycles takes the CPU"
+    monkeypatch.setattr(type(preferences), "has_active_device", lambda self: True)
+    assert "CUDA devices have no Open Shading Language" in osl_status(context).message
+    scene.cycles.shading_system = False
+    registered.ops.microbounce.enable_osl()
+    assert "Render on the CPU or with OptiX" in capfd.readouterr().out
+    preferences.compute_device_type = "OPTIX"
+    assert osl_status(context).ok
+    preferences.compute_device_type = "NONE"
 
 
 @pytest.fixture
