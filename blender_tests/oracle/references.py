@@ -102,12 +102,13 @@ def _note_in_manifest(folder: Path, case: Case, path: Path, error: float) -> Non
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Command line; returns the exit code, 1 when a picture misses its accuracy."""
-    parser = argparse.ArgumentParser(prog=COMMAND, description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(prog=COMMAND, description="Make the reference pictures.")
     parser.add_argument(
         "--case",
         action="append",
         choices=[case.name for case in CASES],
-        help="make only this picture; may be given several times",
+        metavar="NAME",
+        help="make only this picture, named as its file; may be given several times",
     )
     parser.add_argument(
         "--quick",
