@@ -9,7 +9,7 @@ from addon.nodes.conductor import conductor_material
 
 from . import common
 
-RESOLUTION = 96
+RESOLUTION = 64
 
 
 def build() -> None:

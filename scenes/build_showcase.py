@@ -13,7 +13,7 @@ from addon.nodes.conductor import conductor_material
 
 from . import common, shapes
 
-RESOLUTION = (640, 420)
+RESOLUTION = (512, 336)
 
 # Values of the group's parameters by identifier; the colours are the metals' usual reflectances
 # at normal incidence in linear Rec. 709.
@@ -68,9 +68,9 @@ PLINTH = [(0.0, 0.0), (0.97, 0.0), (1.0, 0.03), (1.0, 0.42), (0.97, 0.45), (0.0,
 
 def build() -> None:
     """Build the scene and save it."""
-    scene = common.start_scene(RESOLUTION, samples=128)
-    scene.cycles.max_bounces = 6
-    scene.cycles.diffuse_bounces = 3
+    scene = common.start_scene(RESOLUTION, samples=96)
+    scene.cycles.max_bounces = 5
+    scene.cycles.diffuse_bounces = 2
     scene.cycles.glossy_bounces = 4
     # It keeps the metals' hues, which filmic transforms wash out in the lights.
     scene.view_settings.view_transform = "Khronos PBR Neutral"

@@ -11,7 +11,7 @@ from addon.nodes.conductor import conductor_material
 
 from . import common
 
-RESOLUTION = 96
+RESOLUTION = 64
 # Towards the sun, before it is normalised; its irradiance on a surface that faces it is 1.
 SUN_DIRECTION = (0.6, -0.72, 0.35)
 

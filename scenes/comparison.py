@@ -8,18 +8,20 @@ display is needed.
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import bpy  # isort: split
+
+# These two exist once bpy is imported.
 import blf
-import bpy
 import imbuf
 import numpy as np
 import OpenImageIO as oiio
 
 from .render import write_image
 
-MARGIN = 24
-TITLE_SIZE = 26
-TEXT_SIZE = 18
-LINE_HEIGHT = 27
+MARGIN = 20
+TITLE_SIZE = 23
+TEXT_SIZE = 16
+LINE_HEIGHT = 24
 BACKGROUND = (0.075, 0.075, 0.085)
 TITLE_COLOR = (0.95, 0.95, 0.95)
 TEXT_COLOR = (0.68, 0.68, 0.70)
@@ -48,7 +50,7 @@ def side_by_side(
         for number, line in enumerate(captions[column]):
             below = baseline + 6 + (number + 1) * LINE_HEIGHT
             texts.append((left, below, TEXT_SIZE, TEXT_COLOR, line))
-    texts.append((MARGIN, total_height - MARGIN // 2 - 4, TEXT_SIZE - 3, TEXT_COLOR, footer))
+    texts.append((MARGIN, total_height - MARGIN // 2 - 4, TEXT_SIZE - 2, TEXT_COLOR, footer))
     return _with_texts(canvas, texts)
 
 

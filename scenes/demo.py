@@ -122,8 +122,7 @@ def captions(
         )
         lines.append(
             [
-                f"Light of the metals: {ratios[0]:.2f} of Single's   |   "
-                f"{sum(variant.seconds):.0f} s   |   "
+                f"Light of the metals: {ratios[0]:.2f}   |   {sum(variant.seconds):.0f} s   |   "
                 f"{1000 * variant.per_sample(per_pass):.0f} ms a sample",
                 each,
             ]
@@ -182,8 +181,11 @@ def main() -> None:
 
     begin = time.perf_counter()
     folder = arguments.output.resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "blender.log").unlink(missing_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "blender.log").write_text("")
+    except OSError as error:
+        parser.error(f"--output {folder} cannot be written ({error}): give another folder")
     print(f"Blender {bpy.app.version_string}, {os.cpu_count()} cores, OSL on; into {folder}")
     with render.messages_to(folder / "blender.log"):
         bpy.ops.wm.open_mainfile(filepath=str(SCENE))
@@ -200,7 +202,7 @@ def main() -> None:
     footer = (
         f"Blender {bpy.app.version_string}, {PASSES * per_pass} samples a pixel, "
         f"{os.cpu_count()} CPU cores, OSL on, no denoiser. "
-        "Light: mean radiance of the metals' pixels."
+        "Light: mean radiance of the metals' pixels over that of Single."
     )
     picture = comparison.side_by_side(
         shown,

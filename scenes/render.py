@@ -20,7 +20,8 @@ def render_passes(path: Path, samples: int, seed: int, log: Path) -> tuple[dict,
     """Render the scene into a multilayer float EXR at `path`.
 
     Returns the passes by channel name without the layer, such as "Combined.R" or "IndexOB.X" (so
-    named also where Blender 5 says "Object Index.X"), each float32 (height, width) from the top row down, and the seconds that the render took.
+    named also where Blender 5 says "Object Index.X"), each float32 (height, width) from the top
+    row down, and the seconds that the render took.
     Blender's own messages are appended to `log`. Raises RuntimeError where no picture came out.
     """
     scene = bpy.context.scene

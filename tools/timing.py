@@ -57,8 +57,8 @@ def time_samples(
         raise ValueError(f"samples is {samples}, rounds is {rounds}: both must be 1 or more")
     seconds: dict[str, list[float]] = {name: [] for name in variants}
     kept = scene.cycles.samples, scene.cycles.seed, scene.render.use_persistent_data
-    # Keeps the built scene, so that the second render of a pair starts as fast as it can.
-    scene.render.use_persistent_data = True
+    # With it Cycles would not notice that the number of samples changed.
+    scene.render.use_persistent_data = False
     try:
         for turn in range(rounds):
             scene.cycles.seed = turn

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The script that makes the virtual environments: what it says, and which Python it takes."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+NEEDED = ("bash", "cat", "cksum", "dirname", "rm", "tail")
+
+
+@pytest.fixture
+def bare(tmp_path):
+    """A copy of the script in a project of its own that knows no system folders; returns a runner.
+
+    The path holds a space. Only the commands in `NEEDED` are on PATH, besides what is put there.
+    """
+    project = tmp_path / "a project"
+    (project / "tools").mkdir(parents=True)
+    commands = tmp_path / "bin"
+    commands.mkdir()
+    for name in NEEDED:
+        (commands / name).symlink_to(shutil.which(name))
+    for version in ("4.5", "5.2"):
+        (project / "tools" / f"requirements-{version}.txt").write_text("")
+    text = (TOOLS / "environment.sh").read_text()
+    for folder in ("/usr/bin/", "/usr/local/bin/", "/opt/homebrew/bin/", "/Library/Frameworks/"):
+        text = text.replace(folder, f"/nowhere{folder}")
+    script = project / "tools" / "environment.sh"
+    script.write_text(text)
+
+    def run(*arguments):
+        return subprocess.run(
+            [commands / "bash", script, *arguments],
+            env={"PATH": str(commands), "HOME": str(tmp_path / "home")},
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+
+    run.project, run.commands, run.home = project, commands, tmp_path / "home"
+    return run
+
+
+def put_program(path, body):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!{shutil.which('bash')}\n{body}\n")
+    path.chmod(0o755)
+
+
+def this_python():
+    return f"{sys.version_info.major}.{sys.version_info.minor}"
+
+
+def this_blender():
+    return {"3.13": "5.2", "3.11": "4.5"}[this_python()]
+
+
+def test_neither_python_is_an_error_that_names_both(bare):
+    result = bare("any")
+    assert result.returncode == 2
+    assert result.stdout == ""
+    for words in ("Python 3.13", "Python 3.11", "Blender 5.2", "Blender 4.5"):
+        assert words in result.stderr
+    assert "pyenv install" in result.stderr
+    assert "uv python install" in result.stderr
+
+
+def test_missing_python_of_one_version_is_named(bare):
+    result = bare("4.5")
+    assert result.returncode == 2
+    assert "Python 3.11" in result.stderr
+    assert "3.13" not in result.stderr
+
+
+def test_shim_that_fails_does_not_count(bare):
+    for version in ("3.13", "3.11"):
+        put_program(bare.commands / f"python{version}", "echo 'not installed' >&2; exit 127")
+    assert bare("any").returncode == 2
+
+
+def test_python_of_another_version_does_not_count(bare):
+    other = {"3.13": "3.11", "3.11": "3.13"}[this_python()]
+    put_program(bare.commands / f"python{other}", f'exec "{sys._base_executable}" "$@"')
+    blender = {"3.13": "5.2", "3.11": "4.5"}[other]
+    assert bare(blender).returncode == 2
+
+
+def test_pyenvs_folder_is_found_behind_a_failing_shim(bare):
+    version = this_python()
+    put_program(bare.commands / f"python{version}", "exit 127")
+    real = bare.home / ".pyenv" / "versions" / f"{version}.99" / "bin" / f"python{version}"
+    put_program(real, f'exec "{sys._base_executable}" "$@"')
+    result = bare(this_blender())
+    # The environment is made; its requirements here are empty, so that bpy is missing from it.
+    assert "Made .venv" in result.stderr
+    assert str(real) in result.stderr
+    assert "No module named 'bpy'" in result.stderr
+    assert result.returncode == 1
+    assert not (bare.project / f".venv-{this_blender()}" / "complete").exists()
+
+
+def test_complete_environment_is_used_at_once(bare):
+    folder = bare.project / f".venv-{this_blender()}"
+    (folder / "bin").mkdir(parents=True)
+    (folder / "bin" / "python").symlink_to(sys.executable)
+    sums = subprocess.run(["cksum"], input="", capture_output=True, text=True, check=True)
+    (folder / "complete").write_text(sums.stdout)
+    result = bare(this_blender())
+    assert result.returncode == 0
+    assert result.stdout.strip() == str(folder / "bin" / "python")
+    assert result.stderr == ""
+
+
+def test_interrupted_environment_is_made_again(bare):
+    folder = bare.project / f".venv-{this_blender()}"
+    (folder / "bin").mkdir(parents=True)
+    (folder / "left over").write_text("")
+    put_program(bare.commands / f"python{this_python()}", f'exec "{sys._base_executable}" "$@"')
+    result = bare(this_blender())
+    assert "Made .venv" in result.stderr
+    assert not (folder / "left over").exists()
+    assert os.access(folder / "bin" / "python", os.X_OK)
+
+
+def test_unknown_version_is_refused(bare):
+    result = bare("3.0")
+    assert result.returncode == 64
+    assert "usage" in result.stderr
