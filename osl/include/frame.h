@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The local frame of the model: z is the macro-normal, x the tangent that alpha_x belongs to.
+#ifndef MICROBOUNCE_FRAME_H
+#define MICROBOUNCE_FRAME_H
+
+struct Frame {
+  vector x;
+  vector y;
+  vector z;
+};
+
+// Smallest cosine between the viewer and the macro-normal. Smooth and bumped normals can turn away
+// from the viewer, where no height field is seen; the normal is then bent back just this far.
+#define MIN_VIEW_COSINE 1e-4
+
+// The unit normal nearest to `n` that the viewer can see.
+vector visible_normal(vector n, vector view)
+{
+  float cosine = dot(n, view);
+  return (cosine >= MIN_VIEW_COSINE) ? n : normalize(n + (MIN_VIEW_COSINE - cosine) * view);
+}
+
+// An arbitrary unit vector orthogonal to the unit vector `n`.
+vector any_tangent(vector n)
+{
+  return normalize((abs(n[0]) > abs(n[2])) ? vector(-n[1], n[0], 0) : vector(0, -n[2], n[1]));
+}
+
+// A cross product of unit vectors shorter than this is the rounding of parallel ones.
+#define PARALLEL_SQUARED 1e-10
+
+// Cycles' convention for microfacets: y = N x T, x = y x N, both arguments unit vectors. A tangent
+// parallel to the normal gives an arbitrary frame about it.
+Frame shading_frame(vector n, vector tangent)
+{
+  Frame frame;
+  vector across = cross(n, tangent);
+  frame.z = n;
+  frame.y = (dot(across, across) > PARALLEL_SQUARED) ? normalize(across) : any_tangent(n);
+  frame.x = cross(frame.y, n);
+  return frame;
+}
+
+vector to_local(Frame frame, vector w)
+{
+  return vector(dot(w, frame.x), dot(w, frame.y), dot(w, frame.z));
+}
+
+vector to_world(Frame frame, vector w)
+{
+  return w[0] * frame.x + w[1] * frame.y + w[2] * frame.z;
+}
+
+#endif

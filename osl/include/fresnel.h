@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The reflectance of one microfacet of a conductor.
+#ifndef MICROBOUNCE_FRESNEL_H
+#define MICROBOUNCE_FRESNEL_H
+
+struct Conductor {
+  int physical;  // 0 F82 tint, 1 complex index of refraction
+  color first;   // reflectance at normal incidence, or n
+  color second;  // tint at 82 degrees, or k
+};
+
+// Schlick's curve with a dip at acos(1/7), where it is `tint` times Schlick's value (Kutz, Hasan and
+// Edmondson 2021, "F82-tint").
+color f82_tint_fresnel(color f0, color tint, float cosine)
+{
+  float away = 6.0 / 7.0;
+  color dip = mix(f0, color(1), pow(away, 5)) * (1 - tint) * (7 / pow(away, 6));
+  float s = 1 - cosine;
+  float s5 = s * s * s * s * s;
+  return clamp(mix(f0, color(1), s5) - dip * (cosine * s5 * s), color(0), color(1));
+}
+
+// Unpolarised reflectance of a conductor with index n + i k in vacuum (Born and Wolf, Principles of
+// Optics, section 14.2), with a^2 + b^2 and a taken from the complex square root without cancellation:
+// the smaller of (root +- real) / 2 follows from their product, (n k)^2.
+color n_k_fresnel(color n, color k, float cosine)
+{
+  float cos2 = cosine * cosine;
+  float sin2 = 1 - cos2;
+  color real = n * n - k * k - sin2;
+  color nk = n * k;
+  color modulus = sqrt(real * real + 4 * nk * nk);
+  color larger = 0.5 * (modulus + abs(real));
+  color result;
+  for (int i = 0; i < 3; ++i) {
+    float smaller = (larger[i] > 0) ? nk[i] * nk[i] / larger[i] : 0;
+    float a = sqrt((real[i] >= 0) ? larger[i] : smaller);
+    float sum = modulus[i] + cos2;
+    float cross_s = 2 * a * cosine;
+    float rs = (sum + cross_s > 0) ? (sum - cross_s) / (sum + cross_s) : 1;
+    float sum_p = modulus[i] * cos2 + sin2 * sin2;
+    float cross_p = cross_s * sin2;
+    float rp = (sum_p + cross_p > 0) ? rs * (sum_p - cross_p) / (sum_p + cross_p) : 1;
+    result[i] = clamp(0.5 * (rs + rp), 0, 1);
+  }
+  return result;
+}
+
+// Reflectance for the cosine between the ray and the micronormal, in [0, 1].
+color conductor_fresnel(Conductor metal, float cosine)
+{
+  return metal.physical ? n_k_fresnel(metal.first, metal.second, cosine)
+                        : f82_tint_fresnel(metal.first, metal.second, cosine);
+}
+
+#endif

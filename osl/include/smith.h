@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Smith's masking and shadowing in terms of the projected area sigma, which is finite and
+// non-negative for every direction: sigma(w) = (1 + Lambda(w)) w.z, and G1dist(w) = |w.z| / sigma(w)
+// (Wang et al. 2022, supplement, eq. 3). Directions may lie on either side of the horizon: inside the
+// microgeometry a path also travels upwards, and is then received from below.
+#ifndef MICROBOUNCE_SMITH_H
+#define MICROBOUNCE_SMITH_H
+
+#include "../tables/ierfcx.h"
+#include "ndf.h"
+
+// The part of sigma that is the same for w and -w: sigma(-w) for w above the horizon, Lambda(w) |w.z|.
+float projected_excess(Microsurface surface, vector w)
+{
+  vector s = stretch(surface, w);
+  float t2 = s[0] * s[0] + s[1] * s[1];
+  float cosine = abs(w[2]);
+  if (t2 <= 0)
+    return 0;
+  if (surface.beckmann) {
+    float t = sqrt(t2);
+    float a = cosine / t;
+    return (a < 9) ? 0.5 * t * exp(-a * a) * ierfcx(a) : 0;  // below 1e-36 from a = 9 on
+  }
+  return 0.5 * t2 / (sqrt(cosine * cosine + t2) + cosine);
+}
+
+// A direction from which a vertex receives the path, and what its samples share.
+struct Incidence {
+  vector v;      // minus the direction of travel, unit, local frame
+  float excess;  // sigma(-|v|)
+  float area;    // sigma(v) = integral of <v, m> D(m) dm over the micronormals
+};
+
+Incidence incidence(Microsurface surface, vector v)
+{
+  Incidence arrival;
+  arrival.v = v;
+  arrival.excess = projected_excess(surface, v);
+  arrival.area = max(v[2], 0) + arrival.excess;
+  return arrival;
+}
+
+// The chance that a path sent to `o` leaves without another bounce, for the height-correlated model
+// (eqs. 12, 14, 16 and 17): sigma(v) o.z / (sigma(v) o.z + sigma(-o) |v.z|).
+float exit_probability(Microsurface surface, Incidence arrival, vector o)
+{
+  if (o[2] <= 0)
+    return 0;
+  float blocked = projected_excess(surface, o) * abs(arrival.v[2]);
+  return (blocked > 0) ? 1 / (1 + blocked / (arrival.area * o[2])) : 1;
+}
+
+// An upper bound of the energy that a white surface seen from `wi` sends on after its first bounce:
+// half-angle and slope arguments, with factors that keep it above the oracle's energies and within a
+// few times of them (measured in blender_tests/osl).
+float missing_energy_bound(Microsurface surface, vector wi)
+{
+  float alpha = max(surface.alpha_x, surface.alpha_y);
+  if (surface.beckmann) {
+    float slope = wi[2] / (1 + sqrt(max(1 - wi[2] * wi[2], 0)));  // that mirrors wi to the horizon
+    return min(1.1 * exp(-0.7 * slope * slope / max(alpha * alpha, 1e-12)), 1);
+  }
+  return min(1.4 * alpha * alpha / (wi[2] * wi[2]), 1);
+}
+
+#endif
