@@ -78,40 +78,59 @@ check_import() {
   return 1
 }
 
+# True if the file $1 holds the sum of the requirements, $2.
+stamped() { [ -f "$1" ] && [ "$(cat "$1")" = "$2" ]; }
+
 # Makes or completes .venv-$1. Returns 2 if no fitting Python is found, 1 on other failures.
+#
+# Two stamps hold the sum of the requirements: `installed` once pip has ended well, `complete`
+# once bpy has been imported, so that a missing system library does not cost a second download.
 ensure() {
-  local blender=$1 python version folder requirements stamp want tried=""
+  local blender=$1 python version folder requirements want
   version=$(python_of "$blender")
   folder="$root/.venv-$blender"
   requirements="$root/tools/requirements-$blender.txt"
-  stamp="$folder/complete"
   want=$(cksum <"$requirements")
-  if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$want" ] && runs "$folder/bin/python" "$version"; then
-    printf '%s\n' "$folder/bin/python"
+  if ! { stamped "$folder/complete" "$want" && runs "$folder/bin/python" "$version"; }; then
+    if ! { stamped "$folder/installed" "$want" && runs "$folder/bin/python" "$version"; }; then
+      make_folder "$version" "$folder" || return 2
+      install "$folder" "$requirements" || return 1
+      printf '%s\n' "$want" >"$folder/installed"
+    fi
+    check_import "$folder/bin/python" || return 1
+    printf '%s\n' "$want" >"$folder/complete"
+  fi
+  printf '%s\n' "$folder/bin/python"
+}
+
+# Makes an empty environment for Python $1 at $2, or keeps the one there if pip once ended well
+# in it: without that stamp it was interrupted half-way, and what is in it is not known.
+make_folder() {
+  local version=$1 folder=$2 python tried=""
+  if [ -f "$folder/installed" ] && runs "$folder/bin/python" "$version" && has_pip "$folder"; then
     return
   fi
-  # Without its stamp an environment was interrupted half-way, and what is in it is not known.
-  if ! { [ -f "$stamp" ] && runs "$folder/bin/python" "$version" && has_pip "$folder"; }; then
-    while IFS= read -r python; do
-      case $tried in *"<$python>"*) continue ;; esac
-      tried="$tried<$python>"
-      runs "$python" "$version" || continue
-      create "$python" "$folder" && break
-      say "$python is Python $version, but can make no virtual environment with pip; looking on."
-    done <<<"$(candidates "$version")"
-    [ -x "$folder/bin/python" ] || return 2
-    say "Made .venv-$blender with $python."
-  fi
-  rm -f "$stamp"
-  say "Installing Blender $blender's bpy (about 400 MB) and the tools into .venv-$blender ..."
+  while IFS= read -r python; do
+    case $tried in *"<$python>"*) continue ;; esac
+    tried="$tried<$python>"
+    runs "$python" "$version" || continue
+    if create "$python" "$folder"; then
+      say "Made ${folder##*/} with $python."
+      return
+    fi
+    say "$python is Python $version, but can make no virtual environment with pip; looking on."
+  done <<<"$(candidates "$version")"
+  return 1
+}
+
+install() {
+  local folder=$1 requirements=$2
+  rm -f "$folder/installed" "$folder/complete"
+  say "Installing bpy (about 400 MB) and the tools into ${folder##*/} ..."
   "$folder/bin/python" -m pip install --disable-pip-version-check --no-input \
-    --requirement "$requirements" </dev/null >&2 || {
-    say "The installation failed; the reason stands above. Run the same command again to repeat it."
-    return 1
-  }
-  check_import "$folder/bin/python" || return 1
-  printf '%s\n' "$want" >"$stamp"
-  printf '%s\n' "$folder/bin/python"
+    --requirement "$requirements" </dev/null >&2 && return
+  say "The installation failed; the reason stands above. Run the same command again to repeat it."
+  return 1
 }
 
 how_to_get() {
