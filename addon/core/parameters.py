@@ -256,7 +256,7 @@ CONDUCTOR: tuple[Parameter, ...] = (
         "Kernel",
         "Kernel",
         "FLOAT",
-        0.35,
+        0.3,
         (0.05, 1.0),
         (0.2, 0.6),
         unit="rad",

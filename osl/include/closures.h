@@ -11,8 +11,8 @@
 
 // Candidates for the first vertex of each walk: 4 halve the variance of 1 at alpha 0.25 to 0.5.
 #define CANDIDATES 4
-// Width of a smoothed exit relative to the surface's own: wider blurs narrow lobes, narrower is noise.
-#define KERNEL_PER_ALPHA 0.6
+// Widest exit relative to the surface: a wider one blurs narrow lobes, a narrower one is noise.
+#define KERNEL_PER_ALPHA 0.5
 
 string distribution_name(Microsurface surface)
 {
@@ -29,8 +29,8 @@ closure color first_bounce(Frame frame, Microsurface surface, Conductor metal)
                              surface.alpha_y, metal.first, metal.second);
 }
 
-// The part of a kernel that lies above the horizon: to first order a micronormal of slopes (sx, sy)
-// about h moves the cosine o.z by g.(sx, sy), and the slopes are Gaussian with variance alpha^2 / 2.
+// The part of a kernel that lies above the horizon: to first order a micronormal of slopes s about
+// h moves the cosine o.z by 2 g.s, and the slopes are Gaussian with variance alpha^2 / 2.
 float fraction_above_horizon(vector wi, float o_z, Frame lobe, float alpha_x, float alpha_y)
 {
   float along = dot(wi, lobe.z);
@@ -40,9 +40,9 @@ float fraction_above_horizon(vector wi, float o_z, Frame lobe, float alpha_x, fl
   return (o_z < 4 * spread) ? 0.5 * (1 + erf(o_z / spread)) : 1;
 }
 
-// An exit towards `o` as a smooth lobe that takes part in light sampling: a Beckmann microfacet lobe
-// about the half vector, as anisotropic as the surface. Its single bounce loses next to nothing to
-// masking at these widths; what falls below the horizon is given back to the rest.
+// An exit towards `o` as a smooth lobe that takes part in light sampling: a Beckmann microfacet
+// lobe about the half vector, as anisotropic as the surface. Its single bounce loses next to
+// nothing to masking at these widths; what falls below the horizon is given back to the rest.
 closure color smoothed_exit(Frame frame, Microsurface surface, float kernel, vector wi, vector o,
                             color weight)
 {
@@ -64,18 +64,20 @@ closure color further_bounces(Frame frame, Microsurface surface, Conductor metal
   vector shift = next_numbers(stream);
   for (int i = 0; i < walks; ++i) {
     float kept;
-    Vertex first = sample_kept_vertex(surface, arrival, shift, i * CANDIDATES, CANDIDATES, stream, kept);
+    Vertex first =
+        sample_kept_vertex(surface, arrival, shift, i * CANDIDATES, CANDIDATES, stream, kept);
     if (kept <= 0)
       continue;
     color throughput = kept * conductor_fresnel(metal, first.cosine);
-    vector o = walk_to_exit(surface, metal, -first.o, 1, max_bounces, tolerance, stream, throughput);
+    vector o =
+        walk_to_exit(surface, metal, -first.o, 1, max_bounces, tolerance, stream, throughput);
     lobes = smoothed_exit(frame, surface, kernel, wi, o, throughput / walks) + lobes;
   }
   return lobes;
 }
 
-// Every bounce of one walk as a mirror that turns the view to the exit: unbiased and without a kernel,
-// but lights are only found by being hit.
+// Every bounce of one walk as a mirror that turns the view to the exit: unbiased and without a
+// kernel, but lights are only found by being hit.
 closure color singular_walk(Frame frame, Microsurface surface, Conductor metal, vector wi,
                             int max_bounces, float tolerance, output RandomStream stream)
 {

@@ -9,20 +9,21 @@ struct Conductor {
   color second;  // tint at 82 degrees, or k
 };
 
-// Schlick's curve with a dip at acos(1/7), where it is `tint` times Schlick's value (Kutz, Hasan and
-// Edmondson 2021, "F82-tint").
+// Schlick's curve with a dip at acos(1/7), where it is `tint` times Schlick's value (Kutz, Hasan
+// and Edmondson 2021, "F82-tint").
 color f82_tint_fresnel(color f0, color tint, float cosine)
 {
-  float away = 6.0 / 7.0;
-  color dip = mix(f0, color(1), pow(away, 5)) * (1 - tint) * (7 / pow(away, 6));
+  float s82 = 6.0 / 7.0;  // 1 - cosine at 82 degrees
+  float s82_5 = s82 * s82 * s82 * s82 * s82;
+  color dip = mix(f0, color(1), s82_5) * (1 - tint) * (7 / (s82 * s82_5));
   float s = 1 - cosine;
   float s5 = s * s * s * s * s;
   return clamp(mix(f0, color(1), s5) - dip * (cosine * s5 * s), color(0), color(1));
 }
 
 // Unpolarised reflectance of a conductor with index n + i k in vacuum (Born and Wolf, Principles of
-// Optics, section 14.2), with a^2 + b^2 and a taken from the complex square root without cancellation:
-// the smaller of (root +- real) / 2 follows from their product, (n k)^2.
+// Optics, section 14.2), with a^2 + b^2 and a taken from the complex square root without
+// cancellation: the smaller of (root +- real) / 2 follows from their product, (n k)^2.
 color n_k_fresnel(color n, color k, float cosine)
 {
   float cos2 = cosine * cosine;

@@ -28,8 +28,8 @@ vector default_tangent(vector n)
 {
   point generated;
   if (getattribute("geom:generated", generated)) {
-    vector about_z = transform("object", "world", vector(0.5 - generated[1], generated[0] - 0.5, 0));
-    return cross(n, cross(about_z, n));
+    vector around = vector(0.5 - generated[1], generated[0] - 0.5, 0);
+    return cross(n, cross(transform("object", "world", around), n));
   }
   return dPdu;
 }

@@ -8,8 +8,8 @@ struct RandomStream {
   float counter;
 };
 
-// The pixel filter moves P from sample to sample, so every sample gets its own numbers; the view keeps
-// paths apart that meet in one point.
+// The pixel filter moves P from sample to sample, so every sample gets its own numbers; the view
+// keeps paths apart that meet in one point.
 RandomStream random_stream(point position, vector view)
 {
   RandomStream stream;
@@ -35,7 +35,8 @@ vector next_numbers(output RandomStream stream)
 }
 
 // Point `index` of a rank-1 lattice in the unit cube, moved by the random `shift`: the points of
-// consecutive indices spread evenly (steps of the generalised golden ratio in three dimensions, Roberts 2018).
+// consecutive indices spread evenly (steps of the generalised golden ratio in three dimensions,
+// Roberts 2018).
 vector lattice_point(int index, vector shift)
 {
   vector u = shift + index * vector(0.8191725134, 0.6710436067, 0.5497004779);

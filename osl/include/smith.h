@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Smith's masking and shadowing in terms of the projected area sigma, which is finite and
-// non-negative for every direction: sigma(w) = (1 + Lambda(w)) w.z, and G1dist(w) = |w.z| / sigma(w)
-// (Wang et al. 2022, supplement, eq. 3). Directions may lie on either side of the horizon: inside the
-// microgeometry a path also travels upwards, and is then received from below.
+// non-negative for every direction: sigma(w) = (1 + Lambda(w)) w.z, and G1dist(w) = |w.z| /
+// sigma(w) (Wang et al. 2022, supplement, eq. 3). Directions may lie on either side of the horizon:
+// inside the microgeometry a path also travels upwards, and is then received from below.
 #ifndef MICROBOUNCE_SMITH_H
 #define MICROBOUNCE_SMITH_H
 
 #include "../tables/ierfcx.h"
 #include "ndf.h"
 
-// The part of sigma that is the same for w and -w: sigma(-w) for w above the horizon, Lambda(w) |w.z|.
+// The part of sigma that is the same for w and -w: sigma(-w) for w above the horizon, Lambda(w)
+// |w.z|.
 float projected_excess(Microsurface surface, vector w)
 {
   vector s = stretch(surface, w);
@@ -47,19 +48,22 @@ float exit_probability(Microsurface surface, Incidence arrival, vector o)
 {
   if (o[2] <= 0)
     return 0;
-  float blocked = projected_excess(surface, o) * abs(arrival.v[2]);
-  return (blocked > 0) ? 1 / (1 + blocked / (arrival.area * o[2])) : 1;
+  float leaves = arrival.area * o[2];
+  float stays = projected_excess(surface, o) * abs(arrival.v[2]);
+  return (stays > 0) ? leaves / (leaves + stays) : 1;
 }
 
-// An upper bound of the energy that a white surface seen from `wi` sends on after its first bounce:
-// half-angle and slope arguments, with factors that keep it above the oracle's energies and within a
-// few times of them (measured in blender_tests/osl).
+// An upper bound of the energy that a white surface seen from `wi` sends on after its first bounce.
+// GGX: like alpha^2, growing towards grazing views. Beckmann: like the chance of a slope that
+// mirrors wi to the horizon. The factors keep it above the oracle's energies and, where it is
+// small, within a few times of them (blender_tests/osl/test_smith.py).
 float missing_energy_bound(Microsurface surface, vector wi)
 {
   float alpha = max(surface.alpha_x, surface.alpha_y);
   if (surface.beckmann) {
-    float slope = wi[2] / (1 + sqrt(max(1 - wi[2] * wi[2], 0)));  // that mirrors wi to the horizon
-    return min(1.1 * exp(-0.7 * slope * slope / max(alpha * alpha, 1e-12)), 1);
+    float sine = sqrt(max(1 - wi[2] * wi[2], 0));
+    float slope = wi[2] / (1 + sine);
+    return min(1.1 * exp(-(0.7 + 0.4 * sine) * slope * slope / max(alpha * alpha, 1e-12)), 1);
   }
   return min(1.4 * alpha * alpha / (wi[2] * wi[2]), 1);
 }

@@ -8,9 +8,9 @@
 #include "ndf.h"
 #include "smith.h"
 
-// GGX: the micronormals of alpha 1 visible from the unit vector `w` are h = c + w, with c uniform on
-// the spherical cap c.z > -w.z (Dupuy and Benyoub 2023). `1 + w.z` and `h.z` are written without the
-// difference that would cancel where w points down.
+// GGX: the micronormals of alpha 1 visible from the unit vector `w` are h = c + w, with c uniform
+// on the spherical cap c.z > -w.z (Dupuy and Benyoub 2023). `1 + w.z` and `h.z` are written without
+// the difference that would cancel where w points down.
 vector ggx_visible_normal(vector w, vector u)
 {
   float width = (w[2] >= 0) ? 1 + w[2] : (w[0] * w[0] + w[1] * w[1]) / (1 - w[2]);
@@ -21,11 +21,11 @@ vector ggx_visible_normal(vector w, vector u)
   return vector(radius * cosine + w[0], radius * sine + w[1], (1 - u[0]) * width);
 }
 
-// Beckmann seen from below the horizon: only slopes x > a are visible along the incidence, with density
-// (x - a) exp(-x^2), where a >= 0 is the cotangent of the stretched direction. Returns y = x - a, the
-// solution of tail(y) = u tail(0) with tail the integral above it, divided by exp(-a^2) / 2, which would
-// underflow. Halley's method started at the mode: density and tail are log-concave, so that the
-// denominator of a step stays above 1/2.
+// Beckmann seen from below the horizon: only slopes x > a are visible along the incidence, with
+// density (x - a) exp(-x^2), where a >= 0 is the cotangent of the stretched direction. Returns y =
+// x - a, the solution of tail(y) = u tail(0) with tail the integral above it, divided by exp(-a^2)
+// / 2, which would underflow. Halley's method started at the mode: density and tail are
+// log-concave, so that the denominator of a step stays above 1/2.
 float beckmann_tail_slope(float a, float u)
 {
   float root_pi = sqrt(M_PI);
@@ -45,10 +45,10 @@ float beckmann_tail_slope(float a, float u)
 }
 
 // Beckmann: a micronormal of alpha 1, not normalised, visible from the unit vector `w`. sigma(w) =
-// w.z + sigma(-w) splits the density <w, m> D(m) in two parts that are easy to sample. The first is the
-// whole distribution, mirrored to the side that faces w as often as it is the more visible one. The
-// second, with probability `steep`, are the slopes so steep that -w sees them mirrored; from below,
-// only these are left.
+// w.z + sigma(-w) splits the density <w, m> D(m) in two parts that are easy to sample. The first is
+// the whole distribution, mirrored to the side that faces w as often as it is the more visible one.
+// The second, with probability `steep`, are the slopes so steep that -w sees them mirrored; from
+// below, only these are left.
 vector beckmann_visible_normal(vector w, float steep, vector u)
 {
   float cosine = abs(w[2]);
@@ -68,11 +68,12 @@ vector beckmann_visible_normal(vector w, float steep, vector u)
       along = -along;
   }
   vector azimuth = (sine > 0) ? vector(w[0] / sine, w[1] / sine, 0) : vector(1, 0, 0);
-  return vector(along * azimuth[0] - across * azimuth[1], along * azimuth[1] + across * azimuth[0], 1);
+  return vector(along * azimuth[0] - across * azimuth[1],
+                along * azimuth[1] + across * azimuth[0], 1);
 }
 
-// A micronormal visible from `arrival`: a unit vector with z >= 0. u: three numbers uniform in [0, 1],
-// of which GGX needs two.
+// A micronormal visible from `arrival`: a unit vector with z >= 0. u: three numbers uniform in [0,
+// 1], of which GGX needs two.
 vector sample_visible_normal(Microsurface surface, Incidence arrival, vector u)
 {
   vector w = normalize(stretch(surface, arrival.v));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The position-free random walk inside the microgeometry (Wang et al. 2022).
 //
-// A vertex receives the path from `v`, minus its direction of travel, and sends it to `o`. Sampling the
-// visible normals leaves the Fresnel factor as the only weight, and the whole segment term is the
-// chance to leave: G2(i=k) = G1dist(v) leave, G2(i<k) = G1dist(v) (1 - leave).
+// A vertex receives the path from `v`, minus its direction of travel, and sends it to `o`. Sampling
+// the visible normals leaves the Fresnel factor as the only weight, and the whole segment term is
+// the chance to leave: G2(i=k) = G1dist(v) leave, G2(i<k) = G1dist(v) (1 - leave).
 #ifndef MICROBOUNCE_WALK_H
 #define MICROBOUNCE_WALK_H
 
@@ -29,10 +29,10 @@ Vertex sample_vertex(Microsurface surface, Incidence arrival, vector u)
   return vertex;
 }
 
-// One of `candidates` vertices, chosen in proportion to the energy that it keeps inside, with the mean
-// of that energy in `kept`: walks are spent where the light is.
-Vertex sample_kept_vertex(Microsurface surface, Incidence arrival, vector shift, int first, int candidates,
-                          output RandomStream stream, output float kept)
+// One of `candidates` vertices, chosen in proportion to the energy that it keeps inside, with the
+// mean of that energy in `kept`: walks are spent where the light is.
+Vertex sample_kept_vertex(Microsurface surface, Incidence arrival, vector shift, int first,
+                          int candidates, output RandomStream stream, output float kept)
 {
   Vertex chosen;
   kept = 0;
@@ -40,22 +40,25 @@ Vertex sample_kept_vertex(Microsurface surface, Incidence arrival, vector shift,
   for (int i = first; i < first + candidates; ++i) {
     Vertex vertex = sample_vertex(surface, arrival, lattice_point(i, shift));
     float inside = 1 - vertex.leave;
+    if (inside <= 0)
+      continue;
     kept += inside;
     // Reservoir of one; the threshold is uniform again whichever way it falls.
-    if (threshold * kept < inside) {
+    if (threshold * kept <= inside) {
       chosen = vertex;
       threshold *= kept / inside;
     }
     else
-      threshold = (threshold * kept - inside) / max(kept - inside, 1e-30);
+      threshold = (threshold * kept - inside) / (kept - inside);
   }
   kept /= candidates;
   return chosen;
 }
 
-// Follows a path that has made `bounces` bounces and is received from `v` until it leaves, and returns
-// its direction; `throughput` is multiplied by the Fresnel factors on the way. At `max_bounces` only the
-// part that leaves counts; a path whose throughput falls below `tolerance` is lost (throughput 0).
+// Follows a path that has made `bounces` bounces and is received from `v` until it leaves, and
+// returns its direction; `throughput` is multiplied by the Fresnel factors on the way. At
+// `max_bounces` only the part that leaves counts; a path whose throughput falls below `tolerance`
+// is lost (throughput 0).
 vector walk_to_exit(Microsurface surface, Conductor metal, vector v, int bounces, int max_bounces,
                     float tolerance, output RandomStream stream, output color throughput)
 {

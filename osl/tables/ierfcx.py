@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fit the one special function of the Beckmann distribution and write `ierfcx.h`.
 
-ierfcx(x) = exp(x^2) * integral of erfc from x to infinity = 1/sqrt(pi) - x exp(x^2) erfc(x), x >= 0.
-Written as that difference it cancels (it falls like 1/(2 sqrt(pi) x^2)); here it is t^2 P(t) with
-t = 1 / (1 + x/2), P a polynomial fitted for the least largest relative error.
+ierfcx(x) = exp(x^2) * integral of erfc from x to infinity = 1/sqrt(pi) - x exp(x^2) erfc(x) for
+x >= 0. Written as that difference it cancels (it falls like 1/(2 sqrt(pi) x^2)); here it is
+t^2 P(t) with t = 1 / (1 + x/2), P a polynomial fitted for the least largest relative error.
 
     python osl/tables/ierfcx.py            writes the header
     python osl/tables/ierfcx.py --check    fails if the header is not what this script writes
