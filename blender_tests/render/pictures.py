@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Renders of the fixture scenes with given parameters, and how they are compared with references."""
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from blender_tests.oracle import exr
+from scenes import render, variants
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+REFERENCES = Path(__file__).resolve().parents[1] / "references"
+WHITE = {"BaseColor": (1.0, 1.0, 1.0), "EdgeTint": (1.0, 1.0, 1.0)}
+BLOCK = 8  # pixels on a side
+
+
+@dataclass(frozen=True)
+class Widths:
+    """A pair of alphas, and the inputs that give them."""
+
+    alpha_x: float
+    alpha_y: float
+
+    @property
+    def name(self) -> str:
+        """As the references' files have it."""
+        if self.alpha_x == self.alpha_y:
+            return f"{self.alpha_x:g}"
+        return f"{self.alpha_x:g}_{self.alpha_y:g}"
+
+    @property
+    def inputs(self) -> dict[str, float]:
+        """Roughness and Anisotropy: alpha^2 = alpha_x alpha_y, aspect^2 = alpha_y / alpha_x."""
+        return {
+            "Roughness": (self.alpha_x * self.alpha_y) ** 0.25,
+            "Anisotropy": (1.0 - self.alpha_y / self.alpha_x) / 0.9,
+        }
+
+
+def open_scene(name: str) -> variants.Metal:
+    """Open scenes/`name`.blend and return its metal (the first, where there are several)."""
+    bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{name}.blend"))
+    return variants.find_metals()[0]
+
+
+def picture(samples: int, seed: int = 0) -> np.ndarray:
+    """Render the open scene; linear radiance (rows, columns, 3) in float64, top row first."""
+    with tempfile.TemporaryDirectory() as folder:
+        passes, _ = render.render_passes(
+            Path(folder, "picture.exr"), samples, seed, Path(folder, "log")
+        )
+        return render.combined(passes).astype(np.float64)
+
+
+def render_fixture(name: str, samples: int, seed: int = 0, **values: object) -> np.ndarray:
+    """Open a fixture scene, set parameters of its metal by identifier, and render it."""
+    metal = open_scene(name)
+    for identifier, value in values.items():
+        metal.set(identifier, value)
+    return picture(samples, seed)
+
+
+def reference(name: str) -> dict[str, np.ndarray]:
+    """Layers of the oracle's picture; `mask` is boolean. Raises OSError where it is missing."""
+    layers, _ = exr.read(REFERENCES / f"{name}.exr")
+    return layers | {"mask": layers["mask"] > 0.5}
+
+
+def l2_error(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
+    """Root of the summed squared difference over that of the reference, within the mask."""
+    difference = found[mask] - wanted[mask]
+    return float(np.sqrt(np.sum(difference**2) / np.sum(wanted[mask] ** 2)))
+
+
+def energy_ratio(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
+    """Mean over the mask, relative to the reference's."""
+    return float(found[mask].mean() / wanted[mask].mean())
+
+
+def block_means(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """Means (blocks, 3) over squares of BLOCK pixels that lie wholly within the mask."""
+    rows, columns = mask.shape
+    tiles = mask.reshape(rows // BLOCK, BLOCK, columns // BLOCK, BLOCK).all(axis=(1, 3))
+    shape = (rows // BLOCK, BLOCK, columns // BLOCK, BLOCK, 3)
+    return image.reshape(shape).mean(axis=(1, 3))[tiles]
+
+
+def seeds(name: str, samples: int, count: int, **values: object) -> tuple[np.ndarray, np.ndarray]:
+    """Mean of `count` independent renders, and the variance of that mean, (rows, columns, 3)."""
+    metal = open_scene(name)
+    for identifier, value in values.items():
+        metal.set(identifier, value)
+    pictures = np.array([picture(samples, seed) for seed in range(count)])
+    return pictures.mean(axis=0), pictures.var(axis=0, ddof=1) / count
+
+
+def block_z(
+    found: np.ndarray, variance: np.ndarray, wanted: np.ndarray, error: np.ndarray, mask: np.ndarray
+) -> np.ndarray:
+    """Difference of each block's mean from the reference in standard errors of both, (blocks, 3)."""
+    both = block_means(variance + error**2, mask) / BLOCK**2  # pixels are independent
+    return (block_means(found, mask) - block_means(wanted, mask)) / np.sqrt(both)
