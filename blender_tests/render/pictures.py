@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders of the fixture scenes with given parameters, and how they are compared with references."""
+"""Renders of the fixture scenes with given parameters, and their comparison with references."""
 
 import tempfile
 from dataclasses import dataclass
@@ -100,6 +100,6 @@ def seeds(name: str, samples: int, count: int, **values: object) -> tuple[np.nda
 def block_z(
     found: np.ndarray, variance: np.ndarray, wanted: np.ndarray, error: np.ndarray, mask: np.ndarray
 ) -> np.ndarray:
-    """Difference of each block's mean from the reference in standard errors of both, (blocks, 3)."""
+    """Difference of the blocks' means from the reference's in standard errors, (blocks, 3)."""
     both = block_means(variance + error**2, mask) / BLOCK**2  # pixels are independent
     return (block_means(found, mask) - block_means(wanted, mask)) / np.sqrt(both)

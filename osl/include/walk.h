@@ -57,8 +57,8 @@ Vertex sample_kept_vertex(Microsurface surface, Incidence arrival, vector shift,
 
 // Follows a path that has made `bounces` bounces and is received from `v` until it leaves, and
 // returns its direction; `throughput` is multiplied by the Fresnel factors on the way. At
-// `max_bounces` only the part that leaves counts; a path whose throughput falls below `tolerance`
-// is lost (throughput 0).
+// `max_bounces` only the part that leaves counts; a path that stays with less than `tolerance` is
+// lost (throughput 0).
 vector walk_to_exit(Microsurface surface, Conductor metal, vector v, int bounces, int max_bounces,
                     float tolerance, output RandomStream stream, output color throughput)
 {
@@ -66,12 +66,14 @@ vector walk_to_exit(Microsurface surface, Conductor metal, vector v, int bounces
   for (int bounce = bounces + 1; bounce <= max_bounces; ++bounce) {
     Vertex vertex = sample_vertex(surface, incidence(surface, from), next_numbers(stream));
     throughput *= conductor_fresnel(metal, vertex.cosine);
+    if (bounce == max_bounces) {
+      throughput *= vertex.leave;
+      return vertex.o;
+    }
+    if (next_number(stream) < vertex.leave)
+      return vertex.o;
     if (max(throughput[0], max(throughput[1], throughput[2])) < tolerance)
       break;
-    if (bounce == max_bounces)
-      throughput *= vertex.leave;
-    if (bounce == max_bounces || next_number(stream) < vertex.leave)
-      return vertex.o;
     from = -vertex.o;
   }
   throughput = color(0);

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad input: whatever is linked to the material, every pixel is finite, not negative and not black.
+
+Values reach the shader through attributes of the mesh, as a texture's or a node's would: the limits
+of the node's own fields do not apply there.
+"""
+
+import bpy
+import numpy as np
+import pytest
+
+from addon.core.parameters import CONDUCTOR
+from addon.nodes.conductor import conductor_material
+from scenes import common
+
+from . import pictures
+
+NUMBERS = [float("nan"), float("inf"), float("-inf"), -1.0, 2.0, 1e30, -1e30, 0.0]
+VECTORS = [
+    (0.0, 0.0, 0.0),
+    (float("nan"), 0.0, 1.0),
+    (float("inf"), float("inf"), float("inf")),
+    (1e30, 1e30, 1e30),
+    (1e-30, 0.0, 0.0),
+    (-2.0, 3.0, -4.0),
+]
+QUALITIES = ("Single", "Walk", "Exact")
+SIZE = 24
+# In a uniform world of radiance 1 nothing that conserves energy is brighter; noise of a few samples
+# and the compensation of the kernels' horizon add to that.
+BRIGHTEST = 2.0
+
+
+def scene_with(linked: dict[str, object], **values: object) -> None:
+    """A tilted plane in a white world, with constant attributes linked by the socket's name."""
+    scene = common.start_scene((SIZE, SIZE), samples=8)
+    common.set_world(scene, (1.0, 1.0, 1.0))
+    common.add_front_camera(scene)
+    material = conductor_material("Metal", **values)
+    mesh = bpy.data.meshes.new("Disc")
+    mesh.from_pydata([(-2, -1, -2), (2, -1, -2), (2, 1, 2), (-2, 1, 2)], [], [(0, 1, 2, 3)])
+    mesh.materials.append(material)
+    common.add_object("Disc", mesh)
+    tree = material.node_tree
+    node = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeGroup")
+    for index, (label, value) in enumerate(linked.items()):
+        vector = isinstance(value, tuple)
+        kind = "FLOAT_VECTOR" if vector else "FLOAT"
+        attribute = mesh.attributes.new(f"value {index}", kind, "FACE")
+        attribute.data.foreach_set("vector" if vector else "value", np.float32([value]).ravel())
+        source = tree.nodes.new("ShaderNodeAttribute")
+        source.attribute_name = f"value {index}"
+        tree.links.new(source.outputs["Vector" if vector else "Fac"], node.inputs[label])
+
+
+def assert_sound(image: np.ndarray) -> None:
+    assert np.all(np.isfinite(image))
+    assert np.all(image >= 0.0)
+    blocks = image.reshape(SIZE // 8, 8, SIZE // 8, 8, 3).mean(axis=(1, 3))
+    # One channel may be black where a colour of 0 was linked.
+    assert blocks.max(axis=-1).min() > 0.02, "black"
+    assert blocks.max() < BRIGHTEST
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("parameter", CONDUCTOR, ids=lambda parameter: parameter.identifier)
+def test_linked_values(parameter, quality: str) -> None:
+    if parameter.identifier == "Quality":
+        values = {"Roughness": 0.7}
+    else:
+        values = {"Roughness": 0.7, "Anisotropy": 0.5, "Quality": quality}
+    if parameter.identifier in ("IOR", "Extinction"):
+        values["Fresnel"] = "n and k"
+    for value in VECTORS if parameter.is_vector else NUMBERS:
+        if parameter.identifier == "BaseColor" and max(value) < 1e-6:
+            continue  # black metal is what was asked for
+        scene_with({parameter.label: value}, **values)
+        assert_sound(pictures.picture(8))
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_smallest_and_largest_legal_values(quality: str) -> None:
+    """Roughness and anisotropy 0 and 1 with every distribution."""
+    for roughness in (0.0, 1e-3, 1.0):
+        for anisotropy in (0.0, 1.0):
+            for distribution in ("GGX", "Beckmann"):
+                scene_with(
+                    {},
+                    Roughness=roughness,
+                    Anisotropy=anisotropy,
+                    Distribution=distribution,
+                    Quality=quality,
+                )
+                assert_sound(pictures.picture(8))
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_normals_beyond_the_horizon(quality: str) -> None:
+    """Normals that face away from the viewer are bent into view."""
+    for normal in ((0.0, 1.0, 0.0), (0.99, 0.1, 0.0), (0.0, 1.0, -1.0)):
+        scene_with({"Normal": normal}, Roughness=0.8, Quality=quality)
+        assert_sound(pictures.picture(16))
+
+
+@pytest.mark.parametrize("model", ["height-uncorrelated", "height-tracked"])
+def test_models_not_made_yet_say_so_and_render(model: str, capfd) -> None:
+    scene_with({}, Roughness=0.7, Model=model)
+    bpy.context.scene.cycles.samples = 4
+    bpy.ops.render.render()
+    printed = "".join(capfd.readouterr())
+    assert "Microbounce Conductor: Model" in printed
+    assert "not made yet" in printed
+    assert_sound(pictures.picture(8))
