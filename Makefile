@@ -14,7 +14,7 @@ on_4.5 = python="$$(tools/environment.sh 4.5)" && "$$python"
 pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references scenes clean
+.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references tables scenes clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -53,6 +53,9 @@ addon: ## Build the extension's zip into dist/ and validate it
 
 references: ## Render the oracle's reference pictures anew (about ten minutes)
 	@$(any) -m blender_tests.oracle.references
+
+tables: ## Fit the shaders' tables anew (osl/tables)
+	@$(any) osl/tables/ierfcx.py
 
 scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both versions open them
 	@$(on_4.5) -m scenes.build_all

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The node group: sockets against the parameters, reuse, and failures that leave nothing behind."""
 
+import hashlib
 import re
 import tempfile
+from dataclasses import replace
 
 import pytest
 
@@ -11,6 +13,10 @@ from addon.core.oso import oso_parameters
 from addon.core.parameters import CONDUCTOR
 from addon.core.shader_source import ShaderSourceError, inlined_source
 from blender_tests.addon.support import ROOT
+
+# What GROUP_REVISION stands for. Where this test fails, raise the number in addon/nodes/conductor.py
+# and replace the digest: files then take the new group, and the scenes are to be built anew.
+REVISION = (1, "DIGEST")
 
 # Blender stores sockets as 32-bit floats; so do compiled shaders.
 FLOAT32 = 1e-6
@@ -108,6 +114,49 @@ def test_group_is_stamped_and_reused(conductor, empty_file):
     assert VERSION in group.description
     assert conductor.conductor_group() == group
     assert contents(empty_file)[:2] == [["Microbounce Conductor"], ["microbounce_conductor.osl"]]
+
+
+def described(group):
+    """Everything that the builder decides, in words that every Blender version gives alike."""
+    for item in group.interface.items_tree:
+        yield item.item_type, item.name, item.parent.name
+        if item.item_type == "PANEL":
+            yield (item.default_closed,)
+        else:
+            hidden = item.in_out == "INPUT" and item.hide_value
+            yield item.in_out, item.socket_type, getattr(item, "subtype", ""), hidden
+    settings = ("operation", "data_type", "distribution", "fresnel_type", "mode")
+    for node in group.nodes:
+        yield node.bl_idname, node.name, *(str(getattr(node, name, "")) for name in settings)
+        # What the parameters or the Blender version decide is left out: the sockets of those nodes.
+        if node.bl_idname in ("ShaderNodeMixShader", "ShaderNodeMath"):
+            yield tuple(
+                socket.default_value
+                for socket in node.inputs
+                if socket.type == "VALUE" and not socket.is_linked
+            )
+    for link in group.links:
+        ends = (link.from_node, link.to_node)
+        yield *(end.name for end in ends), link.from_socket.name, link.to_socket.identifier
+
+
+def test_group_revision_stands_for_what_is_built(conductor):
+    # Input sockets of a group have identifiers that Blender numbers; names are stable there.
+    text = "\n".join(repr(line) for line in described(conductor.conductor_group()))
+    digest = hashlib.sha256(text.encode()).hexdigest()[:16]
+    assert (conductor.GROUP_REVISION, digest) == REVISION, f"built differently:\n{text}"
+
+
+@pytest.mark.parametrize("name", ["VERSION", "GROUP_REVISION", "CONDUCTOR"])
+def test_stamp_changes_with_all_that_the_group_is_made_from(conductor, monkeypatch, name):
+    old = conductor.conductor_group()
+    if name == "CONDUCTOR":
+        changed = replace(CONDUCTOR[5], tooltip="Another tooltip")
+        value = (*CONDUCTOR[:5], changed, *CONDUCTOR[6:])
+    else:
+        value = {"VERSION": "0.1.1", "GROUP_REVISION": conductor.GROUP_REVISION + 1}[name]
+    monkeypatch.setattr(conductor, name, value)
+    assert conductor.conductor_group() != old
 
 
 def test_group_of_another_version_is_left_alone(conductor, empty_file):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: the native metal without OSL, the script alone with it."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -128,15 +130,20 @@ def test_with_osl_the_script_really_runs(tmp_path):
 
 
 @pytest.mark.parametrize("socket", ["Normal", "Tangent"])
-def test_without_osl_a_vector_without_length_means_the_default(socket, tmp_path):
+@pytest.mark.parametrize(
+    "numbers",
+    [(0.0, 0.0, 0.0), (math.nan, 0.0, 1.0), (math.nan,) * 3, (0.0, math.inf, 0.0)],
+    ids=["zero", "nan component", "nan", "infinite"],
+)
+def test_without_osl_a_vector_that_is_no_direction_means_the_default(socket, numbers, tmp_path):
     from addon.nodes.conductor import conductor_material
 
     _, sphere = small_scene(osl=False)
     material = conductor_material("Metal", Roughness=0.6, Anisotropy=0.8)
     sphere.data.materials.append(material)
     expected = render(tmp_path / "unlinked.exr")
-    with_inputs(material, socket, (0.0, 0.0, 0.0))
-    assert relative_error(render(tmp_path / "zero.exr"), expected) < ROUNDING
+    with_inputs(material, socket, numbers)
+    assert relative_error(render(tmp_path / "linked.exr"), expected) < ROUNDING
 
 
 def test_with_osl_an_unlinked_tangent_is_cycles_own(tmp_path):

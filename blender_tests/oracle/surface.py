@@ -42,10 +42,12 @@ class Surface:
         fresnel: Fresnel | None = None,
     ) -> "Surface":
         """The surface of Cycles' Metallic BSDF: ``alpha = roughness^2``, spread by the aspect
-        ``sqrt(1 - 0.9 anisotropy)``. Both arguments lie in 0..1, roughness above 0."""
+        ``sqrt(1 - 0.9 anisotropy)`` and limited to 1. Both arguments lie in 0..1, roughness above
+        0."""
         for name, value in (("roughness", roughness), ("anisotropy", anisotropy)):
             if not 0.0 <= value <= 1.0:
                 raise ValueError(f"{name} is {value}; give a number from 0 to 1")
         aspect = np.sqrt(1.0 - 0.9 * anisotropy)
         alpha = roughness * roughness
-        return cls(float(alpha / aspect), float(alpha * aspect), distribution, fresnel or White())
+        alpha_x, alpha_y = float(min(alpha / aspect, 1.0)), float(alpha * aspect)
+        return cls(alpha_x, alpha_y, distribution, fresnel or White())

@@ -9,7 +9,7 @@
 #include "walk.h"
 #include "stdcycles.h"
 
-// Candidates for the first vertex of each walk: 4 halve the variance of 1 at alpha 0.25 to 0.5.
+// Candidates for the first vertex of each walk: more make it less noisy, and cost a vertex each.
 #define CANDIDATES 4
 // Widest exit relative to the surface: a wider one blurs narrow lobes, a narrower one is noise.
 #define KERNEL_PER_ALPHA 0.5
