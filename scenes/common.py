@@ -120,6 +120,10 @@ def save(name: str) -> Path:
     """Save the file as scenes/`name`.blend, compressed, without a trace of this machine."""
     path = FOLDER / f"{name}.blend"
     bpy.context.scene.render.filepath = f"//../build/{name}"
+    for screen in bpy.data.screens:
+        for space in (space for area in screen.areas for space in area.spaces):
+            if space.type == "FILE_BROWSER" and space.params:
+                space.params.directory = b"//"  # it starts as the user's home
     bpy.context.preferences.filepaths.save_version = 0
     bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, relative_remap=True)
     print(f"{path.name}: {path.stat().st_size / 1024:.0f} KB")

@@ -27,12 +27,13 @@ SHADER_NAME = "microbounce_conductor"
 VERSION_KEY = "microbounce_version"
 STAMP_KEY = "microbounce_stamp"
 
+# Raise it when the functions below make other sockets, nodes, settings or links: files then take
+# the new group beside their old one. A test knows what each number stands for.
+GROUP_REVISION = 1
+
 # Inputs of Cycles' Metallic BSDF, whose `fresnel_type` decides on the first two.
 _NATIVE_COLOR = {"F82": ("Base Color", "Edge Tint"), "PHYSICAL_CONDUCTOR": ("IOR", "Extinction")}
-_NATIVE_SURFACE = ("Roughness", "Anisotropy", "Rotation", "Normal")
-
-# Below this length a tangent is no direction.
-_SHORTEST_TANGENT = 1e-6
+_NATIVE_SURFACE = ("Roughness", "Anisotropy", "Rotation")
 
 _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
 
@@ -45,7 +46,7 @@ def conductor_group() -> bpy.types.ShaderNodeTree:
     is then as it was.
     """
     source = inlined_source(SHADER_NAME)
-    stamp = hashlib.sha256((VERSION + source + repr(CONDUCTOR)).encode()).hexdigest()[:16]
+    stamp = _stamp(source)
     group = _group_with(stamp)
     if group is not None and (has_bytecode(group) or group.library is not None):
         return group
@@ -105,6 +106,12 @@ def add_group_node(
 def has_bytecode(group: bpy.types.ShaderNodeTree) -> bool:
     """Return whether the group's script can run."""
     return any(node.bytecode for node in group.nodes if node.bl_idname == "ShaderNodeScript")
+
+
+def _stamp(source: str) -> str:
+    """Return what tells this group from those of other versions: all that it is made from."""
+    made_from = f"{VERSION} {GROUP_REVISION} {CONDUCTOR!r} {source}"
+    return hashlib.sha256(made_from.encode()).hexdigest()[:16]
 
 
 def _group_with(stamp: str) -> bpy.types.ShaderNodeTree | None:
@@ -206,7 +213,10 @@ def _make_fallback(
     GGX takes Cycles' own energy compensation, the nearest to further bounces; Beckmann has none.
     """
     nodes, links = group.nodes, group.links
-    tangent = _make_tangent(group, inputs)
+    geometry = nodes.new("ShaderNodeNewGeometry")
+    geometry.location = (-900, -500)
+    normal = _make_direction(group, inputs.outputs["Normal"], geometry.outputs["Normal"], -500)
+    tangent = _make_direction(group, inputs.outputs["Tangent"], geometry.outputs["Tangent"], -800)
 
     def metal(distribution: str, fresnel: str, y: float) -> bpy.types.NodeSocketShader:
         node = nodes.new("ShaderNodeBsdfMetallic")
@@ -215,6 +225,7 @@ def _make_fallback(
         node.location = (-200, y)
         for label in (*_NATIVE_COLOR[fresnel], *_NATIVE_SURFACE):
             links.new(inputs.outputs[label], node.inputs[label])
+        links.new(normal, node.inputs["Normal"])
         links.new(tangent, node.inputs["Tangent"])
         return node.outputs[0]
 
@@ -246,32 +257,46 @@ def _make_fallback(
     return mix("Distribution", ggx, beckmann, (380, -400))
 
 
-def _make_tangent(
-    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node
+def _make_direction(
+    group: bpy.types.ShaderNodeTree,
+    given: bpy.types.NodeSocketVector,
+    default: bpy.types.NodeSocketVector,
+    y: float,
 ) -> bpy.types.NodeSocketVector:
-    """Add nodes that give Tangent, or Cycles' own where that has no length; return their output.
+    """Add nodes that pass on `given`, or `default` where it is no direction; return their output.
 
-    A native metal with a tangent of length 0, as from a UV map that is missing, is black.
+    A native metal is black where its tangent has length 0, as from a UV map that is missing, or
+    where a component is not finite.
     """
     nodes, links = group.nodes, group.links
+    # After this the length is 1; it stays 0 for zero, and infinities become NaN.
+    unit = nodes.new("ShaderNodeVectorMath")
+    unit.operation = "NORMALIZE"
+    unit.location = (-900, y)
+    links.new(given, unit.inputs[0])
     length = nodes.new("ShaderNodeVectorMath")
     length.operation = "LENGTH"
-    length.location = (-600, -700)
-    links.new(inputs.outputs["Tangent"], length.inputs[0])
-    given = nodes.new("ShaderNodeMath")
-    given.operation = "GREATER_THAN"
-    given.location = (-600, -850)
-    given.inputs[1].default_value = _SHORTEST_TANGENT
-    links.new(length.outputs["Value"], given.inputs[0])
-    geometry = nodes.new("ShaderNodeNewGeometry")
-    geometry.location = (-600, -1050)
+    length.location = (-750, y)
+    links.new(unit.outputs["Vector"], length.inputs[0])
+    # No comparison with NaN is true.
+    usable = nodes.new("ShaderNodeMath")
+    usable.operation = "GREATER_THAN"
+    usable.location = (-600, y)
+    usable.inputs[1].default_value = 0.5
+    links.new(length.outputs["Value"], usable.inputs[0])
+    # Division by 0 gives 0 here, so that no NaN reaches the mix, where 0 times NaN is NaN.
+    finite = nodes.new("ShaderNodeVectorMath")
+    finite.operation = "DIVIDE"
+    finite.location = (-600, y - 150)
+    links.new(given, finite.inputs[0])
+    links.new(usable.outputs[0], finite.inputs[1])
     mix = nodes.new("ShaderNodeMix")
     mix.data_type = "VECTOR"
-    mix.label = "Tangent or Default"
-    mix.location = (-400, -850)
-    links.new(given.outputs[0], _input(mix, "Factor_Float"))
-    links.new(geometry.outputs["Tangent"], _input(mix, "A_Vector"))
-    links.new(inputs.outputs["Tangent"], _input(mix, "B_Vector"))
+    mix.label = f"{given.name} or Default"
+    mix.location = (-400, y)
+    links.new(usable.outputs[0], _input(mix, "Factor_Float"))
+    links.new(default, _input(mix, "A_Vector"))
+    links.new(finite.outputs["Vector"], _input(mix, "B_Vector"))
     return next(s for s in mix.outputs if s.identifier == "Result_Vector")
 
 

@@ -14,9 +14,9 @@ from addon.core.parameters import CONDUCTOR
 from addon.core.shader_source import ShaderSourceError, inlined_source
 from blender_tests.addon.support import ROOT
 
-# What GROUP_REVISION stands for. Where this test fails, raise the number in addon/nodes/conductor.py
+# What GROUP_REVISION stands for. Where its test fails, raise it in addon/nodes/conductor.py
 # and replace the digest: files then take the new group, and the scenes are to be built anew.
-REVISION = (1, "DIGEST")
+REVISION = (1, "1d6f9ad98221e4e9")
 
 # Blender stores sockets as 32-bit floats; so do compiled shaders.
 FLOAT32 = 1e-6
