@@ -22,12 +22,15 @@ vector direction(vector value, vector fallback)
   return (isfinite(squared) && squared > 0) ? value / sqrt(squared) : fallback;
 }
 
-// The tangent Cycles takes where none is given: about the object's z axis, from the generated
-// coordinates; without those, along the surface's own parameter u.
+// The tangent Cycles takes where none is given, of any length: about the object's z axis, from the
+// generated coordinates; on curves and points, and without those, along the surface's parameter u.
 vector default_tangent(vector n)
 {
   point generated;
-  if (getattribute("geom:generated", generated)) {
+  float is_curve = 0, is_point = 0;
+  getattribute("geom:is_curve", is_curve);
+  getattribute("geom:is_point", is_point);
+  if (is_curve == 0 && is_point == 0 && getattribute("geom:generated", generated)) {
     vector around = vector(0.5 - generated[1], generated[0] - 0.5, 0);
     return cross(n, cross(transform("object", "world", around), n));
   }
