@@ -5,6 +5,7 @@ import bpy
 
 from ..core.osl_state import Status, osl_state
 from ..nodes.script import osl_compiler_available
+from .exact import active_material, material_warning
 
 
 def osl_status(context: bpy.types.Context) -> Status:
@@ -50,11 +51,12 @@ class MICROBOUNCE_OT_enable_osl(bpy.types.Operator):
         return False
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Set the switch, and warn where the device still stands in the way."""
+        """Set the switch; warn where the device stands in the way or lights will be missed."""
         context.scene.cycles.shading_system = True
         status = osl_status(context)
-        if not status.ok:
-            self.report({"WARNING"}, status.message)
+        warning = status.message or material_warning(active_material(context), context.view_layer)
+        if warning:
+            self.report({"WARNING"}, warning)
         return {"FINISHED"}
 
 

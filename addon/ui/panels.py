@@ -7,6 +7,7 @@ import bpy
 
 from ..core import VERSION
 from ..nodes.conductor import GROUP_NAME
+from ..ops.exact import active_material, material_warning
 from ..ops.material import MICROBOUNCE_OT_add_conductor_material
 from ..ops.node import MICROBOUNCE_OT_add_conductor_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
@@ -15,19 +16,31 @@ from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
 _CHARACTER_WIDTH = 8
 
 
-def draw_status(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Say whether the shaders run; where OSL is merely off, offer to switch it on."""
+def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Say whether the shaders run, where OSL is merely off offering to switch it on.
+
+    Where they run, name the lights that the material shown misses because of its quality Exact.
+    """
     status = osl_status(context)
-    if status.ok:
-        layout.label(text="Open Shading Language is on", icon="CHECKMARK")
+    if not status.ok:
+        _draw_text(layout, context, status.message, "INFO")
+        if status.can_enable:
+            layout.operator(MICROBOUNCE_OT_enable_osl.bl_idname)
         return
+    layout.label(text="Open Shading Language is on", icon="CHECKMARK")
+    warning = material_warning(active_material(context), context.view_layer)
+    if warning:
+        _draw_text(layout, context, warning, "ERROR")
+
+
+def _draw_text(
+    layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str
+) -> None:
     column = layout.box().column(align=True)
     scale = context.preferences.system.ui_scale
     width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
-    for number, line in enumerate(textwrap.wrap(status.message, width)):
-        column.label(text=line, icon="BLANK1" if number else "INFO")
-    if status.can_enable:
-        layout.operator(MICROBOUNCE_OT_enable_osl.bl_idname)
+    for number, line in enumerate(textwrap.wrap(text, width)):
+        column.label(text=line, icon="BLANK1" if number else icon)
 
 
 class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
@@ -44,8 +57,8 @@ class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
         return context.space_data.tree_type == "ShaderNodeTree"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the state of OSL and the Add button."""
-        draw_status(self.layout, context)
+        """Draw what is to know before rendering, and the Add button."""
+        draw_state(self.layout, context)
         self.layout.operator(
             MICROBOUNCE_OT_add_conductor_node.bl_idname, text=f"Add {GROUP_NAME}", icon="ADD"
         )
@@ -63,12 +76,12 @@ class MICROBOUNCE_PT_material(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Show it for every object with a material tab."""
-        return context.object is not None
+        """Show it wherever the material tab is: for an object, or for a pinned material."""
+        return context.object is not None or getattr(context, "material", None) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the state of OSL and the button for a new material."""
-        draw_status(self.layout, context)
+        """Draw what is to know before rendering, and the button for a new material."""
+        draw_state(self.layout, context)
         self.layout.operator(MICROBOUNCE_OT_add_conductor_material.bl_idname, icon="ADD")
 
 
