@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Smith's masking and shadowing in terms of the projected area sigma, which is finite and
-// non-negative for every direction: sigma(w) = (1 + Lambda(w)) w.z, and G1dist(w) = |w.z| /
-// sigma(w) (Wang et al. 2022, supplement, eq. 3). Directions may lie on either side of the horizon:
-// inside the microgeometry a path also travels upwards, and is then received from below.
+// non-negative for every direction: sigma(w) = (1 + Lambda(w)) w.z, G1dist(w) = |w.z| / sigma(w)
+// (Wang et al. 2022, supplement, eq. 3). Directions may lie on either side of the horizon: inside
+// the microgeometry a path also travels upwards, and is then received from below.
 #ifndef MICROBOUNCE_SMITH_H
 #define MICROBOUNCE_SMITH_H
 
 #include "../tables/ierfcx.h"
 #include "ndf.h"
 
-// The part of sigma that is the same for w and -w: sigma(-w) for w above the horizon, Lambda(w)
-// |w.z|.
+// The part of sigma that is the same for w and -w: sigma(-w), that is Lambda(w) w.z, for w above.
 float projected_excess(Microsurface surface, vector w)
 {
   vector s = stretch(surface, w);
@@ -65,7 +64,8 @@ float missing_energy_bound(Microsurface surface, vector wi)
     float slope = wi[2] / (1 + sine);
     return min(1.1 * exp(-(0.7 + 0.4 * sine) * slope * slope / max(alpha * alpha, 1e-12)), 1);
   }
-  return min(1.4 * alpha * alpha / (wi[2] * wi[2]), 1);
+  float lost = 1.4 * alpha * alpha, seen = wi[2] * wi[2];
+  return (lost < seen) ? lost / seen : 1;
 }
 
 #endif

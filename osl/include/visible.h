@@ -22,10 +22,10 @@ vector ggx_visible_normal(vector w, vector u)
 }
 
 // Beckmann seen from below the horizon: only slopes x > a are visible along the incidence, with
-// density (x - a) exp(-x^2), where a >= 0 is the cotangent of the stretched direction. Returns y =
-// x - a, the solution of tail(y) = u tail(0) with tail the integral above it, divided by exp(-a^2)
-// / 2, which would underflow. Halley's method started at the mode: density and tail are
-// log-concave, so that the denominator of a step stays above 1/2.
+// density (x - a) exp(-x^2), where a >= 0 is the cotangent of the stretched direction. Returns
+// y = x - a that solves tail(y) = u tail(0), where tail is the integral from y on, without its
+// factor exp(-a^2) / 2, which would underflow. Halley's method, started at the mode: density and
+// tail are log-concave, so that the denominator of a step stays above 1/2.
 float beckmann_tail_slope(float a, float u)
 {
   float root_pi = sqrt(M_PI);
@@ -72,8 +72,8 @@ vector beckmann_visible_normal(vector w, float steep, vector u)
                 along * azimuth[1] + across * azimuth[0], 1);
 }
 
-// A micronormal visible from `arrival`: a unit vector with z >= 0. u: three numbers uniform in [0,
-// 1], of which GGX needs two.
+// A micronormal visible from `arrival`: a unit vector with z >= 0. Of the three numbers in u,
+// uniform in [0, 1], GGX needs two.
 vector sample_visible_normal(Microsurface surface, Incidence arrival, vector u)
 {
   vector w = normalize(stretch(surface, arrival.v));
