@@ -13,10 +13,11 @@ import bpy
 
 from ..core import VERSION
 from ..core.parameters import CONDUCTOR, FRESNEL_PANEL, Parameter
-from ..core.shader_source import inlined_source
+from ..core.shader_source import ShaderSourceError, inlined_source
 from .script import (
     SOCKET_TYPES,
     OslUnavailableError,
+    ShaderCompileError,
     compile_source,
     fill_script_node,
     socket_value,
@@ -24,8 +25,12 @@ from .script import (
 
 GROUP_NAME = "Microbounce Conductor"
 SHADER_NAME = "microbounce_conductor"
+TEXT_NAME = f"{SHADER_NAME}.osl"
 VERSION_KEY = "microbounce_version"
 STAMP_KEY = "microbounce_stamp"
+
+# What making the group raises on a damaged installation or a full disk; the message is for users.
+GROUP_ERRORS = (ShaderSourceError, ShaderCompileError, ValueError, OSError)
 
 # Raise it when the functions below make other sockets, nodes, settings or links: files then take
 # the new group beside their old one. A test knows what each number stands for.
@@ -41,28 +46,25 @@ _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
 def conductor_group() -> bpy.types.ShaderNodeTree:
     """Return the node group of this version of the extension; reuse the file's own if it has one.
 
-    In a Blender without OSL the group has no bytecode and shows its fallback; called again where
-    there is a compiler, it is completed. Raises ShaderSourceError or ShaderCompileError; the file
-    is then as it was.
+    A group that is linked from a library is not reused: the file shall render alone. Nor is one
+    whose sockets or script node a user took away. In a Blender without OSL the group has no
+    bytecode and shows its fallback; called again where there is a compiler, it is completed, also
+    with a text block that was deleted. Raises one of GROUP_ERRORS; the file is then as it was.
     """
     source = inlined_source(SHADER_NAME)
     stamp = _stamp(source)
     group = _group_with(stamp)
-    if group is not None and (has_bytecode(group) or group.library is not None):
+    script = script_node(group) if group is not None else None
+    if script is not None and script.bytecode and script.script is not None:
         return group
     try:
         bytecode = compile_source(source)
     except OslUnavailableError:
-        bytecode = ""
-    if group is not None and not bytecode:
-        return group
-    built = _build_group(source, bytecode, stamp)
-    if group is not None:
-        group.user_remap(built)
-        name = group.name
-        bpy.data.node_groups.remove(group)
-        built.name = name
-    return built
+        bytecode = script.bytecode if script is not None else ""
+    if script is None:
+        return _build_group(source, bytecode, stamp)
+    fill_script_node(script, source, bytecode, TEXT_NAME)
+    return group
 
 
 def conductor_material(name: str, **values: object) -> bpy.types.Material:
@@ -72,6 +74,8 @@ def conductor_material(name: str, **values: object) -> bpy.types.Material:
     Quality="Exact". Raises TypeError or ValueError for an unknown parameter or a bad value, and
     what conductor_group() raises; no material is left behind then.
     """
+    if not isinstance(name, str):
+        raise TypeError(f"The material's name is {name!r}: give a text")
     known = {parameter.identifier: parameter for parameter in CONDUCTOR}
     for identifier in values:
         if identifier not in known:
@@ -103,9 +107,15 @@ def add_group_node(
     return node
 
 
+def script_node(group: bpy.types.ShaderNodeTree) -> bpy.types.Node | None:
+    """Return the group's script node, None where it has none."""
+    return next((node for node in group.nodes if node.bl_idname == "ShaderNodeScript"), None)
+
+
 def has_bytecode(group: bpy.types.ShaderNodeTree) -> bool:
     """Return whether the group's script can run."""
-    return any(node.bytecode for node in group.nodes if node.bl_idname == "ShaderNodeScript")
+    script = script_node(group)
+    return script is not None and bool(script.bytecode)
 
 
 def _stamp(source: str) -> str:
@@ -115,10 +125,14 @@ def _stamp(source: str) -> str:
 
 
 def _group_with(stamp: str) -> bpy.types.ShaderNodeTree | None:
-    matching = [group for group in bpy.data.node_groups if group.get(STAMP_KEY) == stamp]
-    # A group of this file comes before one that is linked from a library and cannot be edited.
-    matching.sort(key=lambda group: group.library is not None)
-    return matching[0] if matching else None
+    labels = {parameter.label for parameter in CONDUCTOR}
+    for group in bpy.data.node_groups:
+        if group.get(STAMP_KEY) != stamp or group.library or group.override_library:
+            continue
+        sockets = {item.name for item in group.interface.items_tree if item.item_type == "SOCKET"}
+        if sockets >= {"BSDF", *labels} and script_node(group) is not None:
+            return group
+    return None
 
 
 def _build_group(source: str, bytecode: str, stamp: str) -> bpy.types.ShaderNodeTree:
@@ -186,7 +200,7 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, source: str, bytecode: str) -> 
     script.name = script.label = "Multiple Bounces"
     script.location = (-200, 620)
     script.width = 240
-    fill_script_node(script, source, bytecode, f"{SHADER_NAME}.osl")
+    fill_script_node(script, source, bytecode, TEXT_NAME)
     for parameter in CONDUCTOR:
         links.new(inputs.outputs[parameter.label], _input(script, parameter.identifier))
 

@@ -83,17 +83,19 @@ def fill_script_node(
     text_name: str,
     parameters: tuple[Parameter, ...] = CONDUCTOR,
 ) -> bpy.types.Text:
-    """Give an empty script node its sockets, source text and bytecode; return the text block.
+    """Give a script node the sockets, source text and bytecode it lacks; return the text block.
 
     With an empty `bytecode` (no compiler in this Blender) the node never runs. Raises ValueError
     where the bytecode does not declare `parameters`; then nothing is changed.
     """
     if bytecode:
         check_against(parameters, bytecode)
-    text = bpy.data.texts.new(text_name)
-    text.from_string(source)
-    node.mode = "INTERNAL"
-    _assign_text(node, text)
+    text = node.script
+    if text is None:
+        text = bpy.data.texts.new(text_name)
+        text.from_string(source)
+        node.mode = "INTERNAL"
+        _assign_text(node, text)
     _ensure_sockets(node, parameters)
     node.bytecode = bytecode
     # Any string that changes with the bytecode will do: Cycles keeps shaders by it.

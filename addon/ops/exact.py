@@ -13,26 +13,30 @@ from ..nodes.conductor import STAMP_KEY
 _EXACT = _QUALITY.checked("Exact")
 
 
-def active_material(context: bpy.types.Context) -> bpy.types.Material | None:
-    """Return the material in the editor of `context`, pinned or not; elsewhere the active one."""
+def active_tree(context: bpy.types.Context) -> bpy.types.NodeTree | None:
+    """Return the node tree in the node editor of `context`, elsewhere that of the material shown.
+
+    Pinned trees and materials count; where no material is shown it is the active object's.
+    """
     space = context.space_data
     if space is not None and space.type == "NODE_EDITOR":
-        return space.id if isinstance(space.id, bpy.types.Material) else None
+        return space.node_tree
     # Only the Properties editor has this one, and only in some of its tabs.
     material = getattr(context, "material", None)
     if material is None and context.object is not None:
         material = context.object.active_material
-    return material
+    return material.node_tree if material is not None else None
 
 
-def material_warning(material: bpy.types.Material | None, view_layer: bpy.types.ViewLayer) -> str:
-    """Return what `material` misses of the layer's lights because of quality Exact, else ""."""
-    if material is None or material.node_tree is None or not uses_exact(material.node_tree):
+def missed_lights(context: bpy.types.Context) -> str:
+    """Return which lights the active tree misses because of quality Exact, with the remedy."""
+    tree = active_tree(context)
+    if tree is None or not uses_exact(tree):
         return ""
-    return exact_warning(enabled_lamps(view_layer))
+    return exact_warning(enabled_lamps(context.view_layer))
 
 
-def uses_exact(tree: bpy.types.ShaderNodeTree) -> bool:
+def uses_exact(tree: bpy.types.NodeTree) -> bool:
     """Return whether a node of ours in `tree`, or in a group within it, is set to Exact.
 
     A Quality that is linked is not followed.

@@ -3,9 +3,7 @@
 
 import bpy
 
-from ..core.shader_source import ShaderSourceError
-from ..nodes.conductor import GROUP_NAME, conductor_material
-from ..nodes.script import ShaderCompileError
+from ..nodes.conductor import GROUP_ERRORS, GROUP_NAME, conductor_material
 from .osl import osl_status
 
 # Types whose data hold surface materials. A volume has no surface, and grease pencil has its own.
@@ -66,7 +64,7 @@ class MICROBOUNCE_OT_add_conductor_material(bpy.types.Operator):
         obj = context.object
         try:
             material = conductor_material(GROUP_NAME)
-        except (ShaderSourceError, ShaderCompileError, ValueError) as error:
+        except GROUP_ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         assign_material(obj, material)

@@ -3,9 +3,7 @@
 
 import bpy
 
-from ..core.shader_source import ShaderSourceError
-from ..nodes.conductor import add_group_node, conductor_group
-from ..nodes.script import ShaderCompileError
+from ..nodes.conductor import GROUP_ERRORS, add_group_node, conductor_group
 from .osl import osl_status
 
 
@@ -57,7 +55,7 @@ class MICROBOUNCE_OT_add_conductor_node(bpy.types.Operator):
         tree = space.edit_tree
         try:
             group = conductor_group()
-        except (ShaderSourceError, ShaderCompileError, ValueError) as error:
+        except GROUP_ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         if group == tree or group.contains_tree(tree):

@@ -5,7 +5,7 @@ import bpy
 
 from ..core.osl_state import Status, osl_state
 from ..nodes.script import osl_compiler_available
-from .exact import active_material, material_warning
+from .exact import missed_lights
 
 
 def osl_status(context: bpy.types.Context) -> Status:
@@ -54,7 +54,7 @@ class MICROBOUNCE_OT_enable_osl(bpy.types.Operator):
         """Set the switch; warn where the device stands in the way or lights will be missed."""
         context.scene.cycles.shading_system = True
         status = osl_status(context)
-        warning = status.message or material_warning(active_material(context), context.view_layer)
+        warning = status.message or missed_lights(context)
         if warning:
             self.report({"WARNING"}, warning)
         return {"FINISHED"}

@@ -7,7 +7,7 @@ import bpy
 
 from ..core import VERSION
 from ..nodes.conductor import GROUP_NAME
-from ..ops.exact import active_material, material_warning
+from ..ops.exact import missed_lights
 from ..ops.material import MICROBOUNCE_OT_add_conductor_material
 from ..ops.node import MICROBOUNCE_OT_add_conductor_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
@@ -28,7 +28,7 @@ def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
             layout.operator(MICROBOUNCE_OT_enable_osl.bl_idname)
         return
     layout.label(text="Open Shading Language is on", icon="CHECKMARK")
-    warning = material_warning(active_material(context), context.view_layer)
+    warning = missed_lights(context)
     if warning:
         _draw_text(layout, context, warning, "ERROR")
 

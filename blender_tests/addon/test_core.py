@@ -81,6 +81,7 @@ def test_checked_accepts(name, value, expected):
     [
         ("Roughness", 1.5, ValueError, "Roughness is 1.5: it goes from 0 to 1"),
         ("Roughness", math.nan, ValueError, "Roughness is nan"),
+        ("Roughness", 10**400, ValueError, "it goes from 0 to 1"),
         ("Roughness", "0.5", TypeError, "give a number"),
         ("Walks", 2.5, TypeError, "give a whole number"),
         ("Walks", 0, ValueError, "it goes from 1 to 16"),

@@ -153,18 +153,6 @@ def use_nodes(bpy, name):
     return material.node_tree
 
 
-def test_warning_of_a_material(metal, empty_file):
-    from addon.ops.exact import material_warning
-
-    material, node = metal
-    layer = empty_file.context.view_layer
-    add_light(empty_file, "Sun", "SUN")
-    assert "'Sun' (angle 0)" in material_warning(material, layer)
-    node.inputs["Quality"].default_value = 2
-    assert material_warning(material, layer) == ""
-    assert material_warning(None, layer) == ""
-
-
 def test_enabling_osl_warns_of_lights_that_exact_misses(registered, metal, capfd):
     bpy = registered
     scene = bpy.context.scene

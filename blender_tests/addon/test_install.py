@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The zip: its contents, its installation, and files that render without it."""
 
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -8,6 +9,7 @@ import zipfile
 import numpy as np
 import pytest
 
+from addon.core import VERSION
 from blender_tests.addon.support import ROOT, read_picture, run_blender
 
 
@@ -158,3 +160,57 @@ finish({{"message": message, "folder": str(folder), "before": before, "after": a
     assert result["folder"] in result["message"]
     assert "microbounce_conductor.osl is missing. Reinstall the extension" in result["message"]
     assert result["before"] == result["after"]
+
+
+UPGRADE = """
+import importlib
+
+name = "bl_ext.user_default.microbounce"
+
+def install(archive):
+    bpy.ops.extensions.package_install_files(
+        filepath=archive, repo="user_default", enable_on_install=True
+    )
+    operator = bpy.ops.microbounce.add_conductor_material.get_rna_type()
+    return [importlib.import_module(name + ".core").VERSION, operator.name]
+
+states = [install(archive) for archive in {archives!r}]
+bpy.ops.mesh.primitive_cube_add()
+bpy.ops.microbounce.add_conductor_material()
+node = next(n for n in bpy.context.object.active_material.node_tree.nodes if n.type == "GROUP")
+bpy.ops.preferences.addon_disable(module=name)
+left = [dir(bpy.ops.microbounce), [c for c in dir(bpy.types) if "MICROBOUNCE" in c]]
+finish({{
+    "states": states, "from": sys.modules[name].__file__, "left": left,
+    "version": node.node_tree["microbounce_version"],
+    "bytecode": any(n.type == "SCRIPT" and n.bytecode for n in node.node_tree.nodes),
+}})
+"""
+
+
+def test_installed_again_and_upgraded_in_folders_with_any_name(archive, tmp_path):
+    newer = tmp_path / "newer"
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(newer)
+    for file, old, new in (
+        ("blender_manifest.toml", f'version = "{VERSION}"', 'version = "99.0.0"'),
+        ("core/__init__.py", f'VERSION = "{VERSION}"', 'VERSION = "99.0.0"'),
+        ("ops/material.py", "Add Microbounce Conductor", "Add Newer Conductor"),
+    ):
+        text = (newer / file).read_text(encoding="utf-8")
+        assert old in text
+        (newer / file).write_text(text.replace(old, new), encoding="utf-8")
+    upgrade = shutil.make_archive(str(tmp_path / "upgrade"), "zip", newer)
+
+    folders = {key: tmp_path / f"{key} ü 空" for key in ("TMPDIR", "BLENDER_USER_RESOURCES")}
+    for folder in folders.values():
+        folder.mkdir()
+    script = UPGRADE.format(archives=[str(archive), str(archive), upgrade])
+    environment = {key: str(folder) for key, folder in folders.items()}
+    result = run_blender(script, tmp_path, environment, modules=False)
+    today = [VERSION, "Add Microbounce Conductor"]
+    assert result["states"] == [today, today, ["99.0.0", "Add Newer Conductor"]]
+    assert str(folders["BLENDER_USER_RESOURCES"]) in result["from"]
+    assert result["version"] == "99.0.0"
+    assert result["bytecode"]
+    assert result["left"] == [[], []]

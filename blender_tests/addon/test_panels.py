@@ -65,8 +65,9 @@ def draw(bpy, panel, **members):
     return record
 
 
-def node_editor(tree_type="ShaderNodeTree", shown=None):
-    return SimpleNamespace(type="NODE_EDITOR", tree_type=tree_type, id=shown, shader_type="OBJECT")
+def node_editor(shown=None, tree_type="ShaderNodeTree"):
+    tree = shown.node_tree if shown else None
+    return SimpleNamespace(type="NODE_EDITOR", tree_type=tree_type, node_tree=tree)
 
 
 @pytest.fixture
@@ -106,14 +107,14 @@ def test_shader_editor_looks_at_the_material_it_shows(sun_lit):
     panel = "MICROBOUNCE_PT_shader_editor"
     other, _, _ = surface_material("Other")
     sun_lit.context.object.data.materials.append(other)
-    pinned = draw(sun_lit, panel, space_data=node_editor(shown=exact_material()))
+    pinned = draw(sun_lit, panel, space_data=node_editor(exact_material()))
     assert "'Sun' (angle 0)" in pinned.text
-    assert "Sun" not in draw(sun_lit, panel, space_data=node_editor(shown=other)).text
+    assert "Sun" not in draw(sun_lit, panel, space_data=node_editor(other)).text
     for shown in (None, sun_lit.data.worlds.new("World")):
-        record = draw(sun_lit, panel, space_data=node_editor(shown=shown))
+        record = draw(sun_lit, panel, space_data=node_editor(shown))
         assert "Sun" not in record.text
         assert record.operators == ["add_conductor_node"]
-    assert draw(sun_lit, panel, space_data=node_editor("GeometryNodeTree")) is None
+    assert draw(sun_lit, panel, space_data=node_editor(tree_type="GeometryNodeTree")) is None
 
 
 def test_pinned_material_without_an_active_object(sun_lit):
