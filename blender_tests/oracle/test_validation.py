@@ -39,10 +39,11 @@ def test_bad_input_is_named(call, message):
 
 
 def test_roughness_follows_the_metallic_bsdf():
-    # roughness 0.7, anisotropy 0.9: alpha 0.49, aspect sqrt(0.19)
-    surface = Surface.from_roughness(0.7, 0.9)
-    assert surface.alpha_x == pytest.approx(0.49 / np.sqrt(0.19), rel=1e-14)
-    assert surface.alpha_y == pytest.approx(0.49 * np.sqrt(0.19), rel=1e-14)
+    # roughness 0.6, anisotropy 0.9: alpha 0.36, aspect sqrt(0.19)
+    surface = Surface.from_roughness(0.6, 0.9)
+    assert surface.alpha_x == pytest.approx(0.36 / np.sqrt(0.19), rel=1e-14)
+    assert surface.alpha_y == pytest.approx(0.36 * np.sqrt(0.19), rel=1e-14)
+    assert Surface.from_roughness(0.7, 0.9).alpha_x == 1.0  # Cycles' limit
 
 
 def test_half_vector_of_opposite_directions_is_zero():

@@ -25,8 +25,8 @@ def test_frame_is_cycles_convention() -> None:
     ]
     wanted = np.cross(y, n), y, n
     # The direction of the cross product is as uncertain as float32 products over its length.
-    defined = length[:, 0] > 1e-4  # the others, of which there are few, may take any tangent
-    assert defined.mean() > 0.99
+    defined = length[:, 0] > 1e-4  # the others, both near one pole, may take any tangent
+    assert defined.sum() > 2000
     for axis, value in zip(found, wanted, strict=True):
         assert np.max((np.abs(axis - value) * length)[defined]) < 1e-6
 
