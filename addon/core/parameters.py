@@ -4,7 +4,7 @@
 Shader parameters, node-group sockets and documentation are made from this or tested against it.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from numbers import Integral, Real
 
 KINDS = ("COLOR", "FLOAT", "INT", "VECTOR", "NORMAL", "TANGENT")
@@ -37,7 +37,7 @@ class Parameter:
     useful: tuple[float, float]
     unit: str = ""
     tooltip: str = ""
-    choices: tuple[str, ...] = field(default=())
+    choices: tuple[str, ...] = ()
     panel: str = ""
 
     def __post_init__(self) -> None:

@@ -12,17 +12,9 @@ import bpy
 from ..core.oso import check_against
 from ..core.parameters import CONDUCTOR, Parameter
 from .capture import captured_output
+from .sockets import SOCKET_TYPES, socket_value
 
 _FOLDER = re.compile(r'%filename\{"[^"]*[/\\]')
-
-SOCKET_TYPES = {
-    "COLOR": "NodeSocketColor",
-    "FLOAT": "NodeSocketFloat",
-    "INT": "NodeSocketInt",
-    "VECTOR": "NodeSocketVector",
-    "NORMAL": "NodeSocketVector",
-    "TANGENT": "NodeSocketVector",
-}
 
 
 class OslUnavailableError(RuntimeError):
@@ -133,9 +125,3 @@ def _ensure_sockets(node: bpy.types.Node, parameters: tuple[Parameter, ...]) -> 
     for kind, name in (("NodeSocketShader", "BSDF"), ("NodeSocketFloat", "Active")):
         if name not in present:
             node.outputs.new(kind, name, identifier=name)
-
-
-def socket_value(parameter: Parameter, value: object) -> object:
-    """Return `value`, checked, as a node socket of this parameter takes it (colours have alpha)."""
-    checked = parameter.checked(value)
-    return (*checked, 1.0) if parameter.kind == "COLOR" else checked

@@ -4,7 +4,9 @@
 import shutil
 import subprocess
 import sys
+import tempfile
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -43,6 +45,15 @@ def test_zip_holds_the_extension_and_nothing_else(archive):
     assert names == expected
     assert "osl/microbounce_conductor.osl" in names
     assert "blender_manifest.toml" in names
+
+
+def test_zip_holds_no_path_of_this_machine_and_no_byte_code(archive):
+    with zipfile.ZipFile(archive) as packed:
+        for name in packed.namelist():
+            assert not name.endswith((".pyc", ".oso"))
+            text = packed.read(name).decode("utf-8")
+            for folder in (ROOT, tempfile.gettempdir(), Path.home()):
+                assert f"{folder}/" not in text, name
 
 
 def test_a_damaged_manifest_is_refused(tmp_path):
