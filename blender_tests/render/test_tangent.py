@@ -45,9 +45,9 @@ def _hair(material: bpy.types.Material) -> bpy.types.Object:
 
 
 @pytest.mark.parametrize("make", [_sphere, _curve, _hair], ids=["sphere", "tube", "hair"])
-@pytest.mark.parametrize("scale", [1.0, 1e-5])
-def test_default_tangent_is_cycles(make, scale: float) -> None:
-    """The shader's Single against the native closure that the group shows with OSL off.
+@pytest.mark.parametrize(("scale", "rotation"), [(1.0, 0.0), (1e-5, 0.0), (1.0, 0.15)])
+def test_default_tangent_is_cycles(make, scale: float, rotation: float) -> None:
+    """The shader's Single against Cycles' Metallic BSDF, turned or not.
 
     Both are the same GGX closure; 1 % is the noise of their different random numbers.
     """
@@ -55,12 +55,13 @@ def test_default_tangent_is_cycles(make, scale: float) -> None:
     common.set_world(scene, (0.1, 0.1, 0.1))
     scene.cycles.max_bounces = 0
     camera = common.add_front_camera(scene)
-    metal = conductor_material("Metal", Roughness=0.6, Anisotropy=0.9, Quality="Single")
-    native = conductor_material("Native", Roughness=0.6, Anisotropy=0.9, Quality="Single")
+    values = {"Roughness": 0.6, "Anisotropy": 0.9, "Rotation": rotation, "Quality": "Single"}
+    metal = conductor_material("Metal", **values)
+    native = conductor_material("Native", **values)
     group = native.node_tree.nodes["Microbounce Conductor"]
     metallic = native.node_tree.nodes.new("ShaderNodeBsdfMetallic")
     metallic.distribution = "GGX"
-    for name in ("Base Color", "Edge Tint", "Roughness", "Anisotropy"):
+    for name in ("Base Color", "Edge Tint", "Roughness", "Anisotropy", "Rotation"):
         metallic.inputs[name].default_value = group.inputs[name].default_value
     output = native.node_tree.get_output_node("CYCLES")
     native.node_tree.links.new(metallic.outputs[0], output.inputs["Surface"])
