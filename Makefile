@@ -13,6 +13,9 @@ on_5.2 = python="$$(tools/environment.sh 5.2)" && "$$python"
 on_4.5 = python="$$(tools/environment.sh 4.5)" && "$$python"
 pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 
+# Two targets at once would both make the same virtual environment.
+.NOTPARALLEL:
+
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
 .PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references tables scenes clean
 

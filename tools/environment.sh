@@ -9,7 +9,7 @@
 #
 # Written for the bash 3.2 that macOS has; paths may hold spaces.
 set -u
-root=$(cd "$(dirname "$0")/.." && pwd)
+root=$(cd "$(dirname "$0")/.." >/dev/null && pwd)  # with CDPATH set, cd prints where it went
 
 # The Debian packages that hold the system libraries the bpy wheels are linked to.
 debian_packages="libx11-6 libxrender1 libxfixes3 libxi6 libxkbcommon0 libxext6 libsm6 libice6 libgl1"
@@ -20,11 +20,12 @@ python_of() { case $1 in 5.2) echo 3.13 ;; 4.5) echo 3.11 ;; esac; }
 
 # Every place where Python $1 (3.11 or 3.13) may be, one path a line, best first.
 candidates() {
-  local version=$1 pyenv_root=${PYENV_ROOT:-$HOME/.pyenv} path
+  # A service or a container may have no HOME.
+  local version=$1 home=${HOME:-/nonexistent} path
   type -aP "python$version" 2>/dev/null
   for path in \
-    "$pyenv_root"/versions/"$version".*/bin/"python$version" \
-    "${UV_PYTHON_INSTALL_DIR:-${XDG_DATA_HOME:-$HOME/.local/share}/uv/python}"/cpython-"$version".*/bin/"python$version" \
+    "${PYENV_ROOT:-$home/.pyenv}"/versions/"$version".*/bin/"python$version" \
+    "${UV_PYTHON_INSTALL_DIR:-${XDG_DATA_HOME:-$home/.local/share}/uv/python}"/cpython-"$version".*/bin/"python$version" \
     /usr/bin/"python$version" /usr/local/bin/"python$version" \
     /opt/homebrew/bin/"python$version" \
     /Library/Frameworks/Python.framework/Versions/"$version"/bin/"python$version"; do
@@ -123,11 +124,15 @@ make_folder() {
   return 1
 }
 
+# Installs the requirements $2 into the environment $1. The user's own settings of pip hold (index,
+# proxy, certificates), but for one that no environment allows; and a proxy that first fetches all
+# of a large wheel itself is silent for longer than pip's 15 seconds.
 install() {
   local folder=$1 requirements=$2
   rm -f "$folder/installed" "$folder/complete"
   say "Installing bpy (about 400 MB) and the tools into ${folder##*/} ..."
-  "$folder/bin/python" -m pip install --disable-pip-version-check --no-input \
+  PIP_USER=no PIP_DEFAULT_TIMEOUT=${PIP_DEFAULT_TIMEOUT:-120} \
+    "$folder/bin/python" -m pip install --disable-pip-version-check --no-input \
     --requirement "$requirements" </dev/null >&2 && return
   say "The installation failed; the reason stands above. Run the same command again to repeat it."
   return 1
@@ -160,6 +165,7 @@ any)
   say "at least none that runs and can make a virtual environment. One of the two is needed."
   say "Looked on PATH, in pyenv's and uv's folders and in the usual system folders."
   how_to_get 3.13
+  say "Where that has no 3.13, the same with 3.11."
   exit 2
   ;;
 packages)

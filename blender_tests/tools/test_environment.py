@@ -33,10 +33,13 @@ def bare(tmp_path):
     script = project / "tools" / "environment.sh"
     script.write_text(text)
 
-    def run(*arguments):
+    def run(*arguments, **environment):
+        """Run the script; a variable that is None is not set at all."""
+        given = {"PATH": str(commands), "HOME": str(tmp_path / "home")} | environment
         return subprocess.run(
-            [commands / "bash", script, *arguments],
-            env={"PATH": str(commands), "HOME": str(tmp_path / "home")},
+            [commands / "bash", "tools/environment.sh", *arguments],
+            cwd=project,
+            env={name: value for name, value in given.items() if value is not None},
             capture_output=True,
             text=True,
             timeout=120,
@@ -132,6 +135,27 @@ def test_interrupted_environment_is_made_again(bare):
     assert "Made .venv" in result.stderr
     assert not (folder / "left over").exists()
     assert os.access(folder / "bin" / "python", os.X_OK)
+
+
+def test_a_machine_without_home_and_with_cdpath(bare):
+    put_program(bare.commands / f"python{this_python()}", f'exec "{sys._base_executable}" "$@"')
+    result = bare(this_blender(), HOME=None, CDPATH=str(bare.project))
+    assert "unbound" not in result.stderr
+    assert "Made .venv" in result.stderr
+    assert (bare.project / f".venv-{this_blender()}" / "installed").is_file()
+
+
+def test_settings_of_pip_hold_but_for_user(bare):
+    """PIP_USER makes pip refuse a virtual environment; the others say where packages come from."""
+    requirements = bare.project / "tools" / f"requirements-{this_blender()}.txt"
+    requirements.write_text("microbounce-of-nowhere==1\n")
+    put_program(bare.commands / f"python{this_python()}", f'exec "{sys._base_executable}" "$@"')
+    result = bare(this_blender(), PIP_USER="1", PIP_NO_INDEX="1", PIP_FIND_LINKS=str(bare.commands))
+    assert "Can not perform a '--user' install" not in result.stderr
+    assert f"Looking in links: {bare.commands}" in result.stderr
+    assert "microbounce-of-nowhere" in result.stderr
+    assert "The installation failed; the reason stands above" in result.stderr
+    assert result.returncode == 1
 
 
 def test_unknown_version_is_refused(bare):
