@@ -37,7 +37,7 @@ def complaints(path: Path) -> list[str]:
 
 
 def main() -> int:
-    """Check every source under osl/; return the number of complaints, 1 at most."""
+    """Check every source under osl/ and print what is wrong; return the exit code."""
     root = Path(__file__).resolve().parent.parent
     sources = sorted([*root.glob("osl/**/*.osl"), *root.glob("osl/**/*.h")])
     if not sources:
