@@ -64,6 +64,6 @@ scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both
 	@$(on_4.5) -m scenes.build_all
 
 clean: ## Remove what was built; the virtual environments stay
-	@rm -rf build dist .pytest_cache .ruff_cache .hypothesis
+	@rm -rf build dist .pytest_cache .ruff_cache
 	@find . -name '.venv*' -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 	@find osl -name '*.oso' -delete 2>/dev/null || true
