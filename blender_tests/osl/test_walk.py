@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from blender_tests.oracle.estimate import energies
+from blender_tests.oracle.fresnel import F82Tint
 from blender_tests.oracle.surface import BECKMANN, Surface
 from blender_tests.oracle.vectors import direction
 from blender_tests.oracle.walk import bounces
@@ -66,14 +67,8 @@ def test_chosen_vertices_carry_the_kept_energy(
 @pytest.mark.parametrize("alpha", ROUGH)
 def test_energy_of_walks(distribution: str, alpha: tuple[float, float]) -> None:
     """Coloured energies of up to 1, 2 and 5 bounces are the oracle's."""
-
-    class Schlick:
-        def __call__(self, cos_theta: np.ndarray) -> np.ndarray:
-            f0 = np.array([0.9, 0.5, 0.1])
-            return f0 + (1.0 - f0) * (1.0 - cos_theta[..., None]) ** 5
-
     theta = 0.9
-    surface = Surface(*alpha, distribution, Schlick())
+    surface = Surface(*alpha, distribution, F82Tint((0.9, 0.5, 0.1), (1.0, 1.0, 1.0)))
     found = energies(direction(theta, 0.6), surface, 5, 100_000, np.random.default_rng(11))
     for most in (1, 2, 5):
         walked = shade(
