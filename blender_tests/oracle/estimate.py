@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Means over many walks, with their standard errors: energies per bounce and values of the BRDF."""
+"""Means over many walks, with their standard errors: energies per bounce and values of the BSDF."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from .ndf import sigma
 from .surface import Surface
-from .vectors import above_horizon
+from .vectors import outside
 from .walk import ROULETTE, Vertex, bounces, connection, first_bounce
 
 _BATCH = 1 << 15  # walks advanced together: their arrays fit the cache
@@ -39,6 +38,16 @@ class Bounces:
         return self.mean.sum(axis=0)
 
 
+@dataclass(frozen=True)
+class Energies:
+    """Energies per bounce: E_r, reflected to the side that the light came from; E_t, transmitted to
+    the other one; and both together."""
+
+    reflected: Bounces
+    transmitted: Bounces
+    both: Bounces
+
+
 def energies(
     wi: np.ndarray,
     surface: Surface,
@@ -46,26 +55,39 @@ def energies(
     walks: int = 10_000,
     rng: np.random.Generator | int = 0,
     roulette: float = ROULETTE,
-) -> Bounces:
+) -> Energies:
     """Energy that leaves at each bounce of walks that start towards ``wi`` ``(..., 3)``.
 
-    By the equality of both integrals this is also the radiance seen from ``wi`` in a uniform world
-    of radiance 1. ``walks`` per direction, at least 2; ``rng`` a Generator or a seed.
+    By the equality of both integrals this is also what is seen from ``wi`` in a uniform world of
+    radiance 1 (across a dielectric: of basic radiance 1). ``walks`` per direction, at least 2;
+    ``rng`` a Generator or a seed.
     Walks lighter than ``roulette`` are thinned at random; where all but the first bounce is faint,
     that makes rare, heavy survivors, and 0 gives the sounder error. Raises ``ValueError`` for
-    directions that are not unit vectors above the surface, and for counts that are too small.
+    directions that are not unit vectors above the surface (either side of it where it transmits),
+    and for counts that are too small.
     """
-    wi = above_horizon(wi, "wi")
+    wi = outside(wi, "wi", surface.material.transmits)
     flat = wi.reshape(-1, 3)
     rng = np.random.default_rng(rng)
-    moments = _Moments(max_bounces, flat.shape[0], walks, surface)
+    start_below = flat[:, 2] < 0.0
+    kept = [_Moments(max_bounces, flat.shape[0], walks, surface) for _ in range(3)]
+    reflected, transmitted, both = kept
     for pairs, count in _batches(flat.shape[0], walks):
-        moments.start(pairs, count)
+        for moments in kept:
+            moments.start(pairs, count)
         start = np.repeat(flat[pairs], count, axis=0)
         for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
-            moments.add(k, step.walk, step.leaving)
-        moments.finish(step, cut_off=k == max_bounces - 1)
-    return moments.result(wi.shape[:-1])
+            leaving = step.leaving
+            both.add(k, step.walk, leaving)
+            if surface.material.transmits:
+                through = step.below_after ^ start_below[pairs][step.walk // count]
+                reflected.add(k, step.walk, np.where(through[:, None], 0.0, leaving))
+                transmitted.add(k, step.walk, np.where(through[:, None], leaving, 0.0))
+        for moments in kept:
+            moments.finish(step, cut_off=k == max_bounces - 1)
+    if not surface.material.transmits:
+        reflected = both
+    return Energies(*(one.result(wi.shape[:-1]) for one in (reflected, transmitted, both)))
 
 
 def evaluate(
@@ -77,26 +99,29 @@ def evaluate(
     rng: np.random.Generator | int = 0,
     roulette: float = ROULETTE,
 ) -> Bounces:
-    """BRDF times cos(wo) at each bounce, per steradian, by connecting every vertex to ``wo``.
+    """BSDF times |cos(wo)| at each bounce, per steradian, by connecting every vertex to ``wo``.
 
-    ``wi`` and ``wo`` broadcast to ``(..., 3)``, each pair with ``walks`` walks of its own. Bounce 1
-    is exact, with variance 0. Other arguments and errors as in `energies`.
+    ``wi`` and ``wo`` broadcast to ``(..., 3)``, each pair with ``walks`` walks of its own. Where
+    facets are smooth bounce 1 is exact, with variance 0. The values are densities of energy: across
+    a dielectric, radiance takes another factor (materials.py). Other arguments and errors as in
+    `energies`; ``ValueError`` also for a dielectric of IOR 1.
     """
-    wi, wo = np.broadcast_arrays(above_horizon(wi, "wi"), above_horizon(wo, "wo"))
+    transmits = surface.material.transmits
+    wi, wo = np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
     flat, target = wi.reshape(-1, 3), wo.reshape(-1, 3)
-    area_back = sigma(-target, surface)
     rng = np.random.default_rng(rng)
     moments = _Moments(max_bounces, flat.shape[0], walks, surface)
+    exact = surface.material.smooth
     for pairs, count in _batches(flat.shape[0], walks):
         moments.start(pairs, count)
         start = np.repeat(flat[pairs], count, axis=0)
         for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
-            if k > 0:
+            if k > 0 or not exact:
                 pair = pairs.start + step.walk // count
-                value = connection(step.v, target[pair], surface, step.area, area_back[pair])
-                moments.add(k, step.walk, step.weight * value)
+                moments.add(k, step.walk, connection(step, target[pair], surface))
         moments.finish(step, cut_off=k == max_bounces - 1)
-    moments.mean[0] = first_bounce(flat, target, surface)[:, : moments.channels]
+    if exact:
+        moments.mean[0] = first_bounce(flat, target, surface)[:, : moments.channels]
     return moments.result(wi.shape[:-1])
 
 
@@ -109,26 +134,29 @@ def lobe(
     rng: np.random.Generator | int = 0,
     roulette: float = ROULETTE,
 ) -> Bounces:
-    """BRDF times cos(wo) of one ``wi`` ``(3,)`` against many ``wo`` ``(..., 3)``, per steradian.
+    """BSDF times |cos(wo)| of one ``wi`` ``(3,)`` against many ``wo`` ``(..., 3)``, per steradian.
 
     All ``wo`` see the same walks, so the error is smooth over the lobe, and a thousand directions
     cost little more than their connections. Otherwise as `evaluate`.
     """
-    wi, wo = above_horizon(wi, "wi"), above_horizon(wo, "wo")
+    transmits = surface.material.transmits
+    wi, wo = outside(wi, "wi", transmits), outside(wo, "wo", transmits)
     if wi.shape != (3,):
         raise ValueError(f"wi has shape {wi.shape}; a lobe belongs to one direction, shape (3,)")
     target = wo.reshape(-1, 3)
     rng = np.random.default_rng(rng)
     moments = _Moments(max_bounces, target.shape[0], walks, surface)
+    exact = surface.material.smooth
     for _, count in _batches(1, walks):
         steps = list(bounces(np.broadcast_to(wi, (count, 3)), surface, max_bounces, rng, roulette))
         for j, one in enumerate(target):
             moments.start(slice(j, j + 1), count)
-            for k, step in enumerate(steps[1:], start=1):
-                value = connection(step.v, one, surface, step.area)
-                moments.add(k, step.walk, step.weight * value)
+            for k, step in enumerate(steps):
+                if k > 0 or not exact:
+                    moments.add(k, step.walk, connection(step, one, surface))
             moments.finish(steps[-1], cut_off=len(steps) == max_bounces)
-    moments.mean[0] = first_bounce(wi, target, surface)[:, : moments.channels]
+    if exact:
+        moments.mean[0] = first_bounce(wi, target, surface)[:, : moments.channels]
     return moments.result(wo.shape[:-1])
 
 
@@ -151,7 +179,7 @@ class _Moments:
         if walks < 2:
             raise ValueError(f"walks is {walks}; give 2 or more, so that the variance is defined")
         self.walks = walks
-        self.channels = surface.fresnel(np.ones(1)).shape[-1]
+        self.channels = surface.material.channels
         self.mean = np.zeros((max_bounces, directions, self.channels))
         self.square = np.zeros_like(self.mean)
         self.total = np.zeros((directions, self.channels))

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fresnel factor of conductors: colour and edge tint, or complex index of refraction.
+"""Fresnel factors: of conductors, by colour and edge tint or by complex index, and of dielectrics.
 
-A Fresnel factor is called with cosines ``(...)`` of the angle between direction and micronormal and
-returns reflectances ``(..., C)`` in 0..1; C is 3 (red, green, blue), or 1 where channels are equal.
+A conductor's factor is called with cosines ``(...)`` of the angle between direction and micronormal
+and returns reflectances ``(..., C)`` in 0..1; C is 3 (red, green, blue), or 1 where channels are
+equal.
 """
 
 from collections.abc import Sequence
@@ -44,7 +45,7 @@ class F82Tint:
 
     def __post_init__(self) -> None:
         for name in ("base_color", "edge_tint"):
-            _colour(getattr(self, name), name, 1.0)
+            rgb(getattr(self, name), name, 1.0)
 
     def __call__(self, cos_theta: np.ndarray) -> np.ndarray:
         """Reflectances ``(..., 3)``."""
@@ -70,8 +71,8 @@ class IndexOfRefraction:
     k: Sequence[float]
 
     def __post_init__(self) -> None:
-        n = _colour(self.n, "n", np.inf)
-        k = _colour(self.k, "k", np.inf)
+        n = rgb(self.n, "n", np.inf)
+        k = rgb(self.k, "k", np.inf)
         if np.any(n + k == 0.0):
             raise ValueError(f"n is {self.n} and k is {self.k}; in each channel one must exceed 0")
 
@@ -86,9 +87,31 @@ class IndexOfRefraction:
         return 0.5 * (r_s.real**2 + r_s.imag**2 + r_p.real**2 + r_p.imag**2)
 
 
-def _colour(values: Sequence[float], name: str, highest: float) -> np.ndarray:
-    rgb = np.asarray(values, dtype=np.float64)
-    if rgb.shape != (3,) or not np.all((rgb >= 0.0) & (rgb <= highest) & np.isfinite(rgb)):
+def dielectric_reflectance(cos_theta: np.ndarray, eta: np.ndarray | float) -> np.ndarray:
+    """Unpolarised reflectance ``(...)`` of an interface of real relative index ``eta`` > 0.
+
+    ``cos_theta`` ``(...)`` is the cosine of incidence in 0..1; ``eta`` the index beyond the
+    interface over that on this side. 1 beyond the critical angle. With g = eta cos(theta_t), so
+    g^2 = eta^2 - 1 + c^2, the differences in Fresnel's amplitudes (c - g)/(c + g) and
+    (eta^2 c - g)/(eta^2 c + g) are multiplied out, which keeps all digits for eta near 1.
+    """
+    c = np.clip(cos_theta, 0.0, 1.0)
+    eta2 = np.square(eta)
+    rise = np.subtract(eta, 1.0) * np.add(eta, 1.0)  # eta^2 - 1
+    g = np.sqrt(np.maximum(rise + c * c, 0.0))
+    # c + g = 0 only exactly grazing at eta <= 1, where the reflectance is 1
+    sum_s, sum_p = c + g, eta2 * c + g
+    r_s = rise / np.where(sum_s > 0.0, sum_s, 1.0) ** 2
+    r_p = rise * ((eta2 + 1.0) * c * c - 1.0) / np.where(sum_p > 0.0, sum_p, 1.0) ** 2
+    total = (rise + c * c <= 0.0) & (rise != 0.0)
+    return np.where(total, 1.0, np.minimum(0.5 * (r_s * r_s + r_p * r_p), 1.0))
+
+
+def rgb(values: Sequence[float], name: str, highest: float) -> np.ndarray:
+    """``values`` as an array ``(3,)``; ``ValueError`` unless in 0..``highest`` and finite."""
+    colour = np.asarray(values, dtype=np.float64)
+    legal = (colour >= 0.0) & (colour <= highest) & np.isfinite(colour)
+    if colour.shape != (3,) or not np.all(legal):
         limits = "from 0 to 1" if highest == 1.0 else "of 0 or more"
         raise ValueError(f"{name} is {values}; give three finite numbers {limits}")
-    return rgb
+    return colour

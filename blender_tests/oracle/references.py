@@ -20,6 +20,7 @@ from tqdm import tqdm
 
 from . import exr
 from .fresnel import F82Tint, IndexOfRefraction
+from .materials import Conductor
 from .sphere import RESOLUTION, furnace_picture, sun_picture
 from .surface import BECKMANN, GGX, Surface
 
@@ -46,7 +47,7 @@ class Case:
         return {
             "alpha": f"{self.surface.alpha_x} {self.surface.alpha_y}",
             "distribution": self.surface.distribution,
-            "fresnel": repr(self.surface.fresnel),
+            "fresnel": repr(self.surface.material.fresnel),
             "light": "uniform world, radiance 1" if self.furnace else "sun, irradiance 1",
             "model": "height-correlated",
             "walks per point": str(self.walks),
@@ -64,9 +65,9 @@ CASES = (
     Case("sun_white_beckmann_0.5", Surface(0.5, 0.5, BECKMANN), 192, 6),
     Case("sun_white_beckmann_1", Surface(1.0, 1.0, BECKMANN), 544, 7),
     Case("sun_white_beckmann_1_0.1", Surface(1.0, 0.1, BECKMANN), 640, 8),
-    Case("sun_gold_ggx_0.5", Surface(0.5, 0.5, GGX, GOLD), 512, 9),
-    Case("sun_copper_beckmann_0.5", Surface(0.5, 0.5, BECKMANN, COPPER), 192, 10),
-    Case("furnace_gold_ggx_0.5", Surface(0.5, 0.5, GGX, GOLD), 32, 11, furnace=True),
+    Case("sun_gold_ggx_0.5", Surface(0.5, 0.5, GGX, Conductor(GOLD)), 512, 9),
+    Case("sun_copper_beckmann_0.5", Surface(0.5, 0.5, BECKMANN, Conductor(COPPER)), 192, 10),
+    Case("furnace_gold_ggx_0.5", Surface(0.5, 0.5, GGX, Conductor(GOLD)), 32, 11, furnace=True),
 )
 
 

@@ -15,10 +15,9 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from .estimate import Bounces, energies, evaluate
+from .estimate import energies, evaluate
 from .surface import Surface
 from .vectors import dot, normalize, vector
-from .walk import first_bounce
 
 RESOLUTION = 64  # pixels on a side
 CAMERA_WIDTH = 2.1
@@ -92,7 +91,7 @@ def sun_picture(
         if lit.any():
             found = evaluate(wi[lit], wo[lit], surface, MAX_BOUNCES, walks, rng)
             mean[lit], variance[lit] = found.total, found.total_variance
-            single[lit] = first_bounce(wi[lit], wo[lit], surface)
+            single[lit] = found.mean[0]
         return mean, variance, single
 
     mean, variance, single, mask = _render(shade, seed, resolution, progress)
@@ -110,9 +109,8 @@ def furnace_picture(
     otherwise as `sun_picture`."""
 
     def shade(frames: tuple[np.ndarray, ...], rng: np.random.Generator) -> tuple[np.ndarray, ...]:
-        found: Bounces = energies(
-            to_local(VIEW_DIRECTION, frames), surface, MAX_BOUNCES, walks, rng
-        )
+        wi = to_local(VIEW_DIRECTION, frames)
+        found = energies(wi, surface, MAX_BOUNCES, walks, rng).both
         return found.total, found.total_variance, found.mean[0]
 
     mean, variance, _, mask = _render(shade, seed, resolution, progress)

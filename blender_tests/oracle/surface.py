@@ -1,29 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a rough surface is: widths of its NDF, the NDF's name, and its Fresnel factor."""
+"""What a rough surface is: widths and name of its NDF, its material, and the model of its walk."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .fresnel import Fresnel, White
+from .materials import Conductor, Material
 
 GGX = "GGX"
 BECKMANN = "BECKMANN"
 
+CORRELATED = "CORRELATED"  # height-correlated masking and shadowing (eqs. 12, 14-17)
+UNCORRELATED = "UNCORRELATED"  # separable masking and shadowing (eqs. 3, 19-24); reciprocal
+HEIGHT_TRACKED = "HEIGHT_TRACKED"  # the walk carries its height (Heitz et al. 2016)
+MODELS = (CORRELATED, UNCORRELATED, HEIGHT_TRACKED)
+
 
 @dataclass(frozen=True)
 class Surface:
-    """A rough conductor.
+    """A rough surface.
 
-    ``alpha_x``, ``alpha_y``: widths of the NDF along x and y, finite and > 0.
-    ``distribution``: ``GGX`` or ``BECKMANN``. ``fresnel``: reflectance as a function of the cosine.
+    ``alpha_x``, ``alpha_y``: widths of the NDF along x and y, finite and > 0. ``distribution``:
+    ``GGX`` or ``BECKMANN``. ``material``: what its facets are made of, by default a lossless
+    conductor. ``model``: ``CORRELATED``, ``UNCORRELATED`` or ``HEIGHT_TRACKED``.
     Raises ``ValueError`` for any other value.
     """
 
     alpha_x: float
     alpha_y: float
     distribution: str = GGX
-    fresnel: Fresnel = field(default_factory=White)
+    material: Material = field(default_factory=Conductor)
+    model: str = CORRELATED
 
     def __post_init__(self) -> None:
         for name in ("alpha_x", "alpha_y"):
@@ -32,6 +40,12 @@ class Surface:
                 raise ValueError(f"{name} is {value}; give a finite width greater than 0")
         if self.distribution not in (GGX, BECKMANN):
             raise ValueError(f"distribution is {self.distribution!r}; give {GGX!r} or {BECKMANN!r}")
+        if not isinstance(self.material, Material):
+            raise ValueError(
+                f"material is {self.material!r}; give a Conductor, a Dielectric or a Diffuse"
+            )
+        if self.model not in MODELS:
+            raise ValueError(f"model is {self.model!r}; give one of {', '.join(MODELS)}")
 
     @classmethod
     def from_roughness(
@@ -50,4 +64,4 @@ class Surface:
         aspect = np.sqrt(1.0 - 0.9 * anisotropy)
         alpha = roughness * roughness
         alpha_x, alpha_y = float(min(alpha / aspect, 1.0)), float(alpha * aspect)
-        return cls(alpha_x, alpha_y, distribution, fresnel or White())
+        return cls(alpha_x, alpha_y, distribution, Conductor(fresnel or White()))

@@ -57,10 +57,24 @@ def unit_vectors(w: np.ndarray, name: str) -> np.ndarray:
     return w
 
 
-def above_horizon(w: np.ndarray, name: str) -> np.ndarray:
-    """``w`` as unit vectors with ``w.z > 0``; ``ValueError`` names the first that is not."""
+def outside(w: np.ndarray, name: str, transmits: bool = False) -> np.ndarray:
+    """``w`` as unit vectors that point away from the surface: ``w.z > 0``, or where the surface
+    ``transmits`` ``w.z != 0``; ``ValueError`` names the first that does not."""
     w = unit_vectors(w, name)
-    bad = ~(w[..., 2] > 0.0)
+    bad = (w[..., 2] == 0.0) if transmits else ~(w[..., 2] > 0.0)
     if np.any(bad):
-        raise ValueError(f"{name} contains {w[bad][0]}, which is not above the surface (z > 0)")
+        wanted = "in the surface (z = 0)" if transmits else "not above the surface (z > 0)"
+        raise ValueError(f"{name} contains {w[bad][0]}, which is {wanted}")
     return w
+
+
+def to_side(w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Directions ``(..., 3)`` in the frame of the side they point to, and whether it is ``below``.
+
+    That frame is the common one above the surface, and the common one with all directions negated
+    below it, so the results have ``z >= 0``.
+    """
+    w = np.asarray(w, dtype=np.float64)
+    below = w[..., 2] < 0.0
+    sign = np.where(below, -1.0, 1.0)
+    return vector(sign * w[..., 0], sign * w[..., 1], sign * w[..., 2]), below

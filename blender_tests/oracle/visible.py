@@ -9,11 +9,10 @@ cotangent of v's angle (Heitz, d'Eon 2014). The walk draws x by rejection, which
 samplers point by point.
 """
 
-from statistics import NormalDist
-
 import numpy as np
+from scipy.special import erfcx, ndtri
 
-from .error_function import INV_SQRT_PI, deficit, erfcx
+from .error_function import INV_SQRT_PI, deficit
 from .surface import GGX, Surface
 from .vectors import normalize, vector
 
@@ -41,8 +40,7 @@ def from_uniforms(v: np.ndarray, u: np.ndarray, surface: Surface) -> np.ndarray:
     if surface.distribution == GGX:
         return _ggx(v, surface, u[:, 0], u[:, 1])
     stretched, cotangent = _stretch(v, surface)
-    normal = NormalDist(sigma=np.sqrt(0.5)).inv_cdf
-    across = np.array([normal(one) for one in u[:, 1]])
+    across = np.sqrt(0.5) * ndtri(u[:, 1])
     return _from_slopes(stretched, slope_along(cotangent, u[:, 0]), across, surface)
 
 

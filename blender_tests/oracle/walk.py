@@ -1,24 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The height-correlated random walk inside the microgeometry, for conductors.
+"""The random walk inside the microgeometry, and the value of a walk towards a given direction.
 
-At a vertex the path arrives from v, meets a micronormal m drawn from Dvis(v, .), and turns to
-o = 2 <v,m> m - v with weight F(<v,m>). It leaves with probability p_exit (eqs. 12, 14, 16-17):
+At a vertex the path arrives from v, meets a micronormal m drawn from Dvis(v, .), and turns to o as
+the facet's material has it. It leaves with the chance p_exit of its model (masking.py), 0 below the
+horizon. Otherwise the next vertex is met from v' = -o. A path carries the chance of having stayed
+as part of its weight; light paths are thinned by Russian roulette.
 
-    p_exit = sigma(v) o.z / (sigma(v) o.z + sigma(-o) |v.z|)   for o.z > 0, and 0 below the horizon
-
-so that G1dist(v) p_exit is G2 of the last bounce (eqs. 12-13) and G1dist(v) (1 - p_exit) that of a
-middle bounce (eq. 17). Otherwise the next vertex is met from v' = -o. A path carries the
-probability of having stayed as part of its weight; light paths are thinned by Russian roulette.
+On each side of the surface directions are those of its own frame (materials.py): below, the common
+frame with all directions negated.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
+from .masking import exit_odds, first_height, height_from_below, next_height
 from .ndf import D, sigma
-from .surface import Surface
-from .vectors import above_horizon, dot, half_vector
+from .surface import CORRELATED, HEIGHT_TRACKED, Surface
+from .vectors import outside, to_side
 from .visible import sample
 
 ROULETTE = 0.05  # paths lighter than this survive with probability weight / ROULETTE
@@ -28,80 +29,45 @@ ROULETTE = 0.05  # paths lighter than this survive with probability weight / ROU
 class Vertex:
     """One bounce of the ``n`` walks that are still alive.
 
-    ``walk`` ``(n,)``: which of the walks they are. ``v`` ``(n, 3)``, ``area`` = sigma(v) ``(n,)``
-    and ``weight`` ``(n, C)`` on arrival; ``o``, ``reflected`` weight (after Fresnel), and the
-    probabilities ``p_exit``, ``p_stay`` ``(n,)`` on departure.
+    ``walk`` ``(n,)``: which of the walks they are. On arrival: ``v`` ``(n, 3)``; ``below``
+    ``(n,)``, the side they are on; ``area`` = sigma(v) ``(n,)``; ``weight`` ``(n, C)``; ``log_u`` ``(n,)``,
+    the height (in the height-tracked model, else None). Then: the facet ``m`` ``(n, 3)``; the
+    direction ``o`` ``(n, 3)`` on the side after it; whether they ``crossed`` ``(n,)``; the
+    ``scattered`` weight ``(n, C)``; the chances ``p_exit`` and ``p_stay`` ``(n,)``.
     """
 
     walk: np.ndarray
     v: np.ndarray
+    below: np.ndarray
     area: np.ndarray
     weight: np.ndarray
+    log_u: np.ndarray | None
+    m: np.ndarray
     o: np.ndarray
-    reflected: np.ndarray
+    crossed: np.ndarray
+    scattered: np.ndarray
     p_exit: np.ndarray
     p_stay: np.ndarray
 
     @property
     def leaving(self) -> np.ndarray:
         """Weight that leaves at this bounce, ``(n, C)``."""
-        return self.reflected * self.p_exit[:, None]
+        return self.scattered * self.p_exit[:, None]
 
     @property
     def staying(self) -> np.ndarray:
         """Weight that goes on to the next bounce, ``(n, C)``."""
-        return self.reflected * self.p_stay[:, None]
+        return self.scattered * self.p_stay[:, None]
 
+    @property
+    def below_after(self) -> np.ndarray:
+        """The side after the bounce, ``(n,)``."""
+        return self.below ^ self.crossed
 
-def exit_probability(v: np.ndarray, o: np.ndarray, surface: Surface) -> np.ndarray:
-    """p_exit (eqs. 12, 14, 16-17), shape ``(...)``, for ``v`` on either side of the horizon."""
-    v, o = np.asarray(v, dtype=np.float64), np.asarray(o, dtype=np.float64)
-    return _exit_odds(v, sigma(v, surface), o, sigma(-o, surface))[0]
-
-
-def _exit_odds(
-    v: np.ndarray, area_v: np.ndarray, o: np.ndarray, area_back: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """p_exit and 1 - p_exit, the second without cancellation; ``area_back`` is sigma(-o)."""
-    leave = area_v * np.maximum(o[..., 2], 0.0)
-    stay = area_back * np.abs(v[..., 2])
-    both = leave + stay
-    # Both vanish only where no micronormal is visible from v; such paths carry no weight.
-    safe = np.where(both > 0.0, both, 1.0)
-    up = o[..., 2] > 0.0
-    return np.where(up, leave / safe, 0.0), np.where(up, stay / safe, 1.0)
-
-
-def connection(
-    v: np.ndarray,
-    wo: np.ndarray,
-    surface: Surface,
-    area_v: np.ndarray | None = None,
-    area_back: np.ndarray | None = None,
-) -> np.ndarray:
-    """Density per steradian to turn from ``v`` to ``wo`` (``wo.z > 0``) and leave, ``(..., C)``.
-
-    F Dvis(v,h) / (4 <v,h>) p_exit = F D(h) wo.z / (4 (sigma(v) wo.z + sigma(-wo) |v.z|)).
-    ``area_v`` = sigma(v) and ``area_back`` = sigma(-wo) may be given where they are known.
-    """
-    v, wo = np.asarray(v, dtype=np.float64), np.asarray(wo, dtype=np.float64)
-    area_v = sigma(v, surface) if area_v is None else area_v
-    area_back = sigma(-wo, surface) if area_back is None else area_back
-    h = half_vector(v, wo)
-    odds = area_v * wo[..., 2] + area_back * np.abs(v[..., 2])
-    # odds = 0 needs sigma(v) = 0, where D(h) underflows to 0 as well
-    value = D(h, surface) * wo[..., 2] / (4.0 * np.where(odds > 0.0, odds, 1.0))
-    return surface.fresnel(np.maximum(dot(v, h), 0.0)) * value[..., None]
-
-
-def first_bounce(wi: np.ndarray, wo: np.ndarray, surface: Surface) -> np.ndarray:
-    """Single-bounce BRDF times cos(wo): F D G2 / (4 |cos i|), shape ``(..., 3)``, per steradian.
-
-    ``wi`` and ``wo`` broadcast; both must be above the surface, else ``ValueError``.
-    """
-    wi, wo = np.broadcast_arrays(above_horizon(wi, "wi"), above_horizon(wo, "wo"))
-    value = connection(wi, wo, surface)
-    return np.broadcast_to(value, (*value.shape[:-1], 3)).copy()
+    @property
+    def direction(self) -> np.ndarray:
+        """Direction of travel after the bounce in the common frame, ``(n, 3)``."""
+        return np.where(self.below_after[:, None], -self.o, self.o)
 
 
 def bounces(
@@ -111,20 +77,22 @@ def bounces(
     rng: np.random.Generator,
     roulette: float = ROULETTE,
 ) -> Iterator[Vertex]:
-    """Walk from each of ``wi`` ``(n, 3)``; yields bounce 1, 2, ... until ``max_bounces``, or until
-    no walk is alive. ``roulette`` 0 ends only walks whose weight is 0."""
-    v = np.asarray(wi, dtype=np.float64)
+    """Walk from each of ``wi`` ``(n, 3)``, on either side of a surface that transmits; yields
+    bounce 1, 2, ... until ``max_bounces``, or until no walk is alive. ``roulette`` 0 ends only
+    walks whose weight is 0."""
+    v, below = to_side(wi)
     walk = np.arange(v.shape[0])
     area = sigma(v, surface)
     weight = np.ones((v.shape[0], 1))
+    log_u = first_height(v, area, rng) if surface.model == HEIGHT_TRACKED else None
     for _ in range(max_bounces):
         m = sample(v, surface, rng)
-        cosine = np.maximum(dot(v, m), 0.0)
-        o = 2.0 * cosine[:, None] * m - v
+        o, crossed, factor = surface.material.scatter(v, m, below, rng)
         back = -o
         area_back = sigma(back, surface)
-        p_exit, p_stay = _exit_odds(v, area, o, area_back)
-        vertex = Vertex(walk, v, area, weight, o, weight * surface.fresnel(cosine), p_exit, p_stay)
+        after = _height_after(log_u, crossed)
+        odds = exit_odds(v, area, o, area_back, crossed, after, surface.model)
+        vertex = Vertex(walk, v, below, area, weight, log_u, m, o, crossed, weight * factor, *odds)
         yield vertex
         weight = vertex.staying
         chance = weight.max(axis=1) / max(roulette, 1e-300)
@@ -132,5 +100,74 @@ def bounces(
         if alive.size == 0:
             return
         weight = weight[alive] / np.minimum(chance[alive], 1.0)[:, None]
-        walk, area = walk[alive], area_back[alive]
+        walk, below, area = walk[alive], vertex.below_after[alive], area_back[alive]
         v = np.ascontiguousarray(back.T[:, alive]).T
+        if log_u is not None:
+            log_u = next_height(after[alive], -v, area, rng)
+
+
+def connection(vertex: Vertex, wo: np.ndarray, surface: Surface) -> np.ndarray:
+    """Weight per steradian with which walks turn to ``wo`` at ``vertex`` and leave, ``(n, C)``.
+
+    ``wo`` ``(3,)`` or ``(n, 3)``, on either side of the surface.
+    """
+    o, wo_below = to_side(np.broadcast_to(wo, vertex.v.shape))
+    crossed = vertex.below ^ wo_below
+    return vertex.weight * turn_and_leave(
+        vertex.v, o, surface, vertex.below, crossed, vertex.area, vertex.m, vertex.log_u
+    )
+
+
+def turn_and_leave(
+    v: np.ndarray,
+    o: np.ndarray,
+    surface: Surface,
+    below: np.ndarray | bool = False,
+    crossed: np.ndarray | bool = False,
+    area_v: np.ndarray | None = None,
+    m: np.ndarray | None = None,
+    log_u: np.ndarray | None = None,
+) -> np.ndarray:
+    """Density per steradian of turning from ``v`` to ``o`` and leaving, ``(..., C)``.
+
+    ``v`` and ``o`` in the frames of their sides; ``area_v`` = sigma(v) where it is known. Where the
+    facets are smooth, this is the vertex term over sigma(v), times p_exit; for a mirror
+    F D(h) / (4 sigma(v)) p_exit. Where they are not, it is the density at the facet ``m``, whose
+    mean over Dvis(v, .) is meant. The height-tracked model takes the height on arrival, ``log_u``.
+    ``ValueError`` for a dielectric of IOR 1.
+    """
+    v, o = np.broadcast_arrays(np.asarray(v, float), np.asarray(o, float))
+    below, crossed = np.broadcast_to(below, v.shape[:-1]), np.broadcast_to(crossed, v.shape[:-1])
+    area_v = sigma(v, surface) if area_v is None else area_v
+    log_u = _height_after(log_u, crossed)
+    p_exit = exit_odds(v, area_v, o, sigma(-o, surface), crossed, log_u, surface.model).p_exit
+    if surface.material.smooth:
+        turn = surface.material.turn(v, o, None, below, crossed, partial(D, surface=surface))
+        # sigma(v) = 0 only where D underflows as well
+        density = turn.density / np.where(area_v > 0.0, area_v, 1.0)
+        return turn.weight * (density * p_exit)[..., None]
+    return surface.material.at_facet(o, m, crossed) * p_exit[..., None]
+
+
+def first_bounce(wi: np.ndarray, wo: np.ndarray, surface: Surface) -> np.ndarray:
+    """Single-bounce BSDF times |cos(wo)| where facets are smooth, ``(..., 3)``, per steradian.
+
+    For a mirror F D G2 / (4 |cos i|). ``wi`` and ``wo`` broadcast; they point away from the
+    surface, and only where it transmits they may lie below it. The mean over heights of the
+    height-tracked model is the height-correlated one (eq. 15). ``ValueError`` for other directions,
+    for rough facets, which have no closed form, and for a dielectric of IOR 1.
+    """
+    if not surface.material.smooth:
+        raise ValueError(f"{surface.material} has no closed first bounce; use evaluate")
+    transmits = surface.material.transmits
+    wi, wo = np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
+    (v, below), (o, wo_below) = to_side(wi), to_side(wo)
+    if surface.model == HEIGHT_TRACKED:
+        surface = replace(surface, model=CORRELATED)
+    value = turn_and_leave(v, o, surface, below, below ^ wo_below)
+    return np.broadcast_to(value, (*value.shape[:-1], 3)).copy()
+
+
+def _height_after(log_u: np.ndarray | None, crossed: np.ndarray) -> np.ndarray | None:
+    """The height seen from the side that the path is on after the vertex."""
+    return None if log_u is None else np.where(crossed, height_from_below(log_u), log_u)

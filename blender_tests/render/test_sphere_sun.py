@@ -140,9 +140,8 @@ def test_more_bounces_add_light() -> None:
     """Up to 1, 2, 3 and 4 bounces of Exact keep the oracle's energy (alpha 1, at the centre of the
     furnace's sphere; 64 pixels of 256 samples of 0 or 1 have a standard error of 0.004)."""
     widths = Widths(1.0, 1.0)
-    wanted = np.cumsum(
-        energies(direction(0.0), Surface(1.0, 1.0), 4, 200_000, np.random.default_rng(1)).mean[:, 0]
-    )
+    expected = energies(direction(0.0), Surface(1.0, 1.0), 4, 200_000, 1).both
+    wanted = np.cumsum(expected.mean[:, 0])
     metal = pictures.open_scene("furnace_conductor")
     for identifier, value in {"Quality": "Exact", "Tolerance": 0.0, **widths.inputs}.items():
         metal.set(identifier, value)
