@@ -15,7 +15,7 @@ first case of eq. 12 prints a sign that only makes sense as 1 + Lambda(wi); it i
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import betaln
+from scipy.special import betaln, digamma, zeta
 
 from .ndf import sigma
 from .surface import CORRELATED, UNCORRELATED, Surface
@@ -99,13 +99,19 @@ def _correlated_crossed(
     """p_exit = a B(a, 1 + Lambda(o)), a = |1 + Lambda(v)|: eq. 15 for a path that goes through.
 
     Arriving paths see heights whose distribution function u has density a u^(a-1); the other side
-    is left with the chance (1 - u)^Lambda(o).
+    is left with the chance (1 - u)^Lambda(o). The integral, Gamma(1 + a) Gamma(1 + Lambda) /
+    Gamma(1 + a + Lambda), is symmetric; in the smaller of both it starts as
+    1 - small (psi(1 + large) + Euler's gamma), where the difference of logarithms cancels.
     """
     up = o[..., 2] > 0.0
     # v that sees no facet, sigma(v) = 0, carries no weight; the floor keeps 0 * infinity away
     a = np.maximum(_ratio(area_v, np.abs(v[..., 2])), 1e-300)
     big_lambda = np.where(up, _ratio(area_back, np.maximum(o[..., 2], 0.0)), 1.0)
-    log_exit = np.minimum(np.log(a) + betaln(a, 1.0 + big_lambda), 0.0)
+    log_exit = np.asarray(np.minimum(np.log(a) + betaln(a, 1.0 + big_lambda), 0.0))
+    small, large = np.minimum(a, big_lambda), 1.0 + np.maximum(a, big_lambda)
+    tiny = small < 1e-4  # the next term of the series is of the order of its square
+    s, t = small[tiny], large[tiny]
+    log_exit[tiny] = -s * (digamma(t) + np.euler_gamma - 0.5 * s * (zeta(2.0) - zeta(2.0, t)))
     return ExitOdds(np.where(up, np.exp(log_exit), 0.0), np.where(up, -np.expm1(log_exit), 1.0))
 
 
