@@ -70,9 +70,9 @@ def energies(
     flat = wi.reshape(-1, 3)
     rng = np.random.default_rng(rng)
     start_below = flat[:, 2] < 0.0
-    kept = [_Moments(max_bounces, flat.shape[0], walks, surface) for _ in range(3)]
+    kept = [Moments(max_bounces, flat.shape[0], walks, surface) for _ in range(3)]
     reflected, transmitted, both = kept
-    for pairs, count in _batches(flat.shape[0], walks):
+    for pairs, count in batches(flat.shape[0], walks):
         for moments in kept:
             moments.start(pairs, count)
         start = np.repeat(flat[pairs], count, axis=0)
@@ -84,7 +84,7 @@ def energies(
                 reflected.add(k, step.walk, np.where(through[:, None], 0.0, leaving))
                 transmitted.add(k, step.walk, np.where(through[:, None], leaving, 0.0))
         for moments in kept:
-            moments.finish(step, cut_off=k == max_bounces - 1)
+            moments.finish(step if k == max_bounces - 1 else None)
     if not surface.material.transmits:
         reflected = both
     return Energies(*(one.result(wi.shape[:-1]) for one in (reflected, transmitted, both)))
@@ -110,16 +110,16 @@ def evaluate(
     wi, wo = np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
     flat, target = wi.reshape(-1, 3), wo.reshape(-1, 3)
     rng = np.random.default_rng(rng)
-    moments = _Moments(max_bounces, flat.shape[0], walks, surface)
+    moments = Moments(max_bounces, flat.shape[0], walks, surface)
     exact = surface.material.smooth
-    for pairs, count in _batches(flat.shape[0], walks):
+    for pairs, count in batches(flat.shape[0], walks):
         moments.start(pairs, count)
         start = np.repeat(flat[pairs], count, axis=0)
         for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
             if k > 0 or not exact:
                 pair = pairs.start + step.walk // count
                 moments.add(k, step.walk, connection(step, target[pair], surface))
-        moments.finish(step, cut_off=k == max_bounces - 1)
+        moments.finish(step if k == max_bounces - 1 else None)
     if exact:
         moments.mean[0] = first_bounce(flat, target, surface)[:, : moments.channels]
     return moments.result(wi.shape[:-1])
@@ -145,22 +145,22 @@ def lobe(
         raise ValueError(f"wi has shape {wi.shape}; a lobe belongs to one direction, shape (3,)")
     target = wo.reshape(-1, 3)
     rng = np.random.default_rng(rng)
-    moments = _Moments(max_bounces, target.shape[0], walks, surface)
+    moments = Moments(max_bounces, target.shape[0], walks, surface)
     exact = surface.material.smooth
-    for _, count in _batches(1, walks):
+    for _, count in batches(1, walks):
         steps = list(bounces(np.broadcast_to(wi, (count, 3)), surface, max_bounces, rng, roulette))
         for j, one in enumerate(target):
             moments.start(slice(j, j + 1), count)
             for k, step in enumerate(steps):
                 if k > 0 or not exact:
                     moments.add(k, step.walk, connection(step, one, surface))
-            moments.finish(steps[-1], cut_off=len(steps) == max_bounces)
+            moments.finish(steps[-1] if len(steps) == max_bounces else None)
     if exact:
         moments.mean[0] = first_bounce(wi, target, surface)[:, : moments.channels]
     return moments.result(wo.shape[:-1])
 
 
-def _batches(directions: int, walks: int) -> Iterator[tuple[slice, int]]:
+def batches(directions: int, walks: int) -> Iterator[tuple[slice, int]]:
     """Slices of directions and numbers of walks whose product stays near the batch size."""
     group = max(1, _BATCH // walks)
     for first in range(0, directions, group):
@@ -170,7 +170,7 @@ def _batches(directions: int, walks: int) -> Iterator[tuple[slice, int]]:
             left -= _BATCH
 
 
-class _Moments:
+class Moments:
     """Means and variances of the mean per bounce and direction, gathered batch by batch."""
 
     def __init__(self, max_bounces: int, directions: int, walks: int, surface: Surface) -> None:
@@ -197,12 +197,12 @@ class _Moments:
         self.mean[bounce, self.pairs] += self._per_direction(walk, value)
         self.square[bounce, self.pairs] += self._per_direction(walk, value * value)
 
-    def finish(self, last: Vertex, cut_off: bool) -> None:
-        """End the batch; ``cut_off`` tells whether walks were alive when it ended."""
+    def finish(self, cut_off: Vertex | None = None) -> None:
+        """End the batch; ``cut_off`` is the last vertex of walks that were alive when it ended."""
         self.total[self.pairs] += self.sums.sum(axis=1) / self.walks
         self.total_square[self.pairs] += (self.sums * self.sums).sum(axis=1) / self.walks
-        if cut_off:
-            self.remaining[self.pairs] += self._per_direction(last.walk, last.staying)
+        if cut_off is not None:
+            self.remaining[self.pairs] += self._per_direction(cut_off.walk, cut_off.staying)
 
     def _per_direction(self, walk: np.ndarray, value: np.ndarray) -> np.ndarray:
         """Sum of ``value`` ``(n, C)`` over each direction's walks, divided by all its walks."""

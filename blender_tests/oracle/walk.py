@@ -30,9 +30,9 @@ class Vertex:
     """One bounce of the ``n`` walks that are still alive.
 
     ``walk`` ``(n,)``: which of the walks they are. On arrival: ``v`` ``(n, 3)``; ``below``
-    ``(n,)``, the side they are on; ``area`` = sigma(v) ``(n,)``; ``weight`` ``(n, C)``; ``log_u`` ``(n,)``,
-    the height (in the height-tracked model, else None). Then: the facet ``m`` ``(n, 3)``; the
-    direction ``o`` ``(n, 3)`` on the side after it; whether they ``crossed`` ``(n,)``; the
+    ``(n,)``, the side they are on; ``area`` = sigma(v) ``(n,)``; ``weight`` ``(n, C)``; ``log_u``
+    ``(n,)``, the height (in the height-tracked model, else None). Then: the facet ``m`` ``(n, 3)``;
+    the direction ``o`` ``(n, 3)`` on the side after it; whether they ``crossed`` ``(n,)``; the
     ``scattered`` weight ``(n, C)``; the chances ``p_exit`` and ``p_stay`` ``(n,)``.
     """
 

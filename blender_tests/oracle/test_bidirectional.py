@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The bidirectional estimator against the walk: the same means, and what variance each has."""
+
+import numpy as np
+import pytest
+
+from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface, bidirectional, evaluate
+from blender_tests.oracle.surface import (
+    BECKMANN,
+    CORRELATED,
+    GGX,
+    HEIGHT_TRACKED,
+    UNCORRELATED,
+)
+from blender_tests.oracle.vectors import direction, normalize
+from blender_tests.oracle.walk import bounces
+
+WI = direction(1.2)
+CASES = [
+    (Conductor(), direction(0.6, 2.0)),
+    (Conductor(), direction(1.3, 0.4)),
+    (Diffuse(), direction(0.6, 2.0)),
+    (Diffuse((0.9, 0.5, 0.2)), direction(1.4, 0.5)),
+    (Dielectric(1.5), direction(0.5, 2.0)),
+    (Dielectric(1.5), direction(2.0, 2.5)),
+    (Dielectric(1.0 / 1.5), direction(0.5, 2.0)),
+    (Dielectric(1.0 / 1.5), direction(2.3, 2.5)),
+]
+
+
+@pytest.mark.parametrize("model", [CORRELATED, UNCORRELATED])
+@pytest.mark.parametrize("distribution", [GGX, BECKMANN])
+@pytest.mark.parametrize(("material", "wo"), CASES)
+def test_both_estimators_agree(model, distribution, material, wo):
+    # alpha this large keeps the peaks broad enough for the walk's own error to be trusted
+    surface = Surface(0.8, 0.5, distribution, material, model)
+    one = evaluate(WI, wo, surface, 4, 40_000, 1, roulette=0)
+    two = bidirectional.evaluate(WI, wo, surface, 4, 10_000, 2)
+    if material.smooth:
+        np.testing.assert_array_equal(one.mean[0], two.mean[0])
+        np.testing.assert_array_equal(two.variance[0], 0.0)
+    # 4 standard errors, of all bounces together and of those that are known to 10 %
+    error = np.sqrt(one.variance + two.variance)
+    assert np.all(np.abs(one.total - two.total) < 4.0 * np.sqrt((error**2).sum(axis=0)))
+    known = error[1:] < 0.1 * two.mean[1:]
+    assert known[0].all() or distribution == BECKMANN
+    assert np.all((np.abs(one.mean - two.mean) < 4.0 * error)[1:][known])
+
+
+@pytest.mark.parametrize("model", [CORRELATED, UNCORRELATED])
+@pytest.mark.parametrize("material", [Conductor(), Diffuse()], ids=["conductor", "diffuse"])
+def test_bounces_beyond_the_first_vary_less(model, material):
+    surface, wo = Surface(0.8, 0.5, GGX, material, model), direction(0.6, 2.0)
+    one = evaluate(WI, wo, surface, 5, 20_000, 1, roulette=0)
+    two = bidirectional.evaluate(WI, wo, surface, 5, 20_000, 2)
+    gain = one.variance[1:, 0] / two.variance[1:, 0]
+    assert np.all(gain > 1.2)  # measured 1.6 to 10, rising with the bounce
+
+
+def around(axis, angle, count, rng):
+    """Directions even over the cone of half-angle ``angle`` about ``axis``."""
+    z = 1.0 - rng.random(count) * (1.0 - np.cos(angle))
+    phi = 2.0 * np.pi * rng.random(count)
+    x = normalize(np.cross([0.0, 1.0, 0.0], axis))
+    radius = np.sqrt(1.0 - z * z)
+    local = np.stack([radius * np.cos(phi), radius * np.sin(phi), z], axis=-1)
+    return local @ np.stack([x, np.cross(axis, x), axis])
+
+
+def test_narrow_peaks_that_the_walk_misses():
+    """IOR 1.05: light that crosses, is reflected, and crosses back. The walk's connections meet
+    its narrow peaks too rarely; counting the walks that leave within a cone settles who is right.
+    """
+    surface = Surface(0.3, 0.3, GGX, Dielectric(1.05), UNCORRELATED)
+    wo, angle = direction(0.5, 2.0), 0.3
+    rng = np.random.default_rng(3)
+    batches, walks = 20, 200_000
+    counts = np.zeros(batches)
+    for i in range(batches):
+        for k, step in enumerate(bounces(np.broadcast_to(WI, (walks, 3)), surface, 3, rng, 0.0)):
+            if k == 2:
+                inside = (step.direction @ wo > np.cos(angle)) & ~step.below_after
+                counts[i] = step.leaving[inside, 0].sum() / walks
+    solid_angle = 2.0 * np.pi * (1.0 - np.cos(angle))
+    counted, counted_error = counts.mean(), counts.std(ddof=1) / np.sqrt(batches)
+    values = bidirectional.evaluate(WI, around(wo, angle, 400, rng), surface, 3, 500, 4)
+    values = values.mean[2, :, 0] * solid_angle
+    error = np.hypot(values.std(ddof=1) / np.sqrt(values.size), counted_error)
+    assert error < 0.1 * counted
+    assert abs(values.mean() - counted) < 4.0 * error
+
+
+def test_edges():
+    surface, wo = Surface(0.5, 0.5), direction(0.4, 1.0)
+    single = bidirectional.evaluate(WI, wo, surface, 1, 2)
+    np.testing.assert_array_equal(single.mean, evaluate(WI, wo, surface, 1, 2).mean)
+    same = [bidirectional.evaluate(WI, wo, surface, 3, 100, 42).mean for _ in range(2)]
+    np.testing.assert_array_equal(*same)
+    assert np.all(np.isnan(single.remaining))
+    with pytest.raises(ValueError, match="model is 'HEIGHT_TRACKED'"):
+        bidirectional.evaluate(WI, wo, Surface(0.5, 0.5, model=HEIGHT_TRACKED))
+    with pytest.raises(ValueError, match="ior is 1"):
+        bidirectional.evaluate(WI, wo, Surface(0.5, 0.5, material=Dielectric(1.0)))
+    with pytest.raises(ValueError, match=r"wo contains .*not above the surface"):
+        bidirectional.evaluate(WI, -wo, surface)
+
+
+@pytest.mark.parametrize("distribution", [GGX, BECKMANN])
+@pytest.mark.parametrize("alpha", [(1e-3, 1e-3), (1.0, 1e-3), (1.0, 1.0)])
+@pytest.mark.parametrize("material", [Conductor(), Diffuse(), Dielectric(1.5), Dielectric(0.2)])
+def test_extreme_inputs_stay_finite(distribution, alpha, material):
+    surface = Surface(*alpha, distribution, material)
+    ends = direction(np.array([0.0, 0.8, np.pi / 2 - 1e-7]), 0.4)
+    wo = np.concatenate([ends, -ends]) if material.transmits else ends
+    found = bidirectional.evaluate(ends[:, None], wo, surface, 4, 50, 1)
+    assert np.all(np.isfinite(found.mean))
+    assert np.all(found.mean >= 0.0)

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reciprocity: of the uncorrelated model (eqs. 18-24, Fig. 17), and its lack in the correlated one
+(eqs. 25-26).
+
+With f the density per steradian of leaving along wo, a BSDF that is reciprocal has
+f(wi, wo) |cos i| / n_o^2 = f(wo, wi) |cos o| / n_i^2, n being the index on each direction's side.
+"""
+
+import numpy as np
+import pytest
+
+from blender_tests.oracle import (
+    Conductor,
+    Dielectric,
+    Diffuse,
+    F82Tint,
+    Surface,
+    bidirectional,
+    evaluate,
+)
+from blender_tests.oracle.masking import G1, G2, G2_middle
+from blender_tests.oracle.ndf import Lambda
+from blender_tests.oracle.path import Path, contribution, random_paths
+from blender_tests.oracle.surface import (
+    BECKMANN,
+    CORRELATED,
+    GGX,
+    HEIGHT_TRACKED,
+    UNCORRELATED,
+)
+from blender_tests.oracle.vectors import direction, half_vector
+
+NDFS = [GGX, BECKMANN]
+GOLD = Conductor(F82Tint((0.9, 0.5, 0.2), (0.8, 0.9, 1.0)))
+MATERIALS = [GOLD, Diffuse((0.9, 0.5, 0.2)), Dielectric(1.5), Dielectric(1.0 / 2.4)]
+NAMES = ["conductor", "diffuse", "dielectric", "dielectric from inside"]
+
+
+def directions_above(rng, count):
+    """Even in the cosine of their angle, so that grazing ones are as frequent as others."""
+    return direction(np.arccos(rng.random(count)), 2.0 * np.pi * rng.random(count))
+
+
+@pytest.mark.parametrize("distribution", NDFS)
+@pytest.mark.parametrize("alpha", [(0.25, 0.25), (1.0, 1.0), (1.0, 0.1)])
+def test_uncorrelated_segment_terms_are_symmetric(distribution, alpha):
+    surface = Surface(*alpha, distribution)
+    rng = np.random.default_rng(1)
+    d = -directions_above(rng, 1000)  # downwards, as in Fig. 4
+    # near the normal Beckmann's Lambda underflows, and eq. 24 becomes 0 * infinity
+    d = d[Lambda(-d, surface) > 1e-280]
+    assert len(d) > 500
+    forward = G1(-d, surface)  # e = 1, p = G1(-d): eqs. 18-20
+    stays = Lambda(-d, surface) / (1.0 + Lambda(-d, surface))  # e = 1 - G1(-d): eq. 22
+    backward = stays * G1(d, surface)  # p = G1(d): eqs. 21 and 23
+    np.testing.assert_allclose(backward, forward, rtol=1e-12)  # eq. 24
+
+
+def ends(path):
+    """wi and wo of paths in the common frame, and whether they end where they began."""
+    below_after = path.below[-1] ^ path.crossed[-1]
+    wo = np.where(below_after[:, None], -path.o[-1], path.o[-1])
+    return path.v[0], wo, below_after
+
+
+@pytest.mark.parametrize("distribution", NDFS)
+@pytest.mark.parametrize("alpha", [(0.25, 0.25), (1.0, 1.0), (1.0, 0.1)])
+@pytest.mark.parametrize("material", MATERIALS, ids=NAMES)
+@pytest.mark.parametrize("bounces", [1, 2, 5])
+def test_uncorrelated_paths_are_reciprocal(distribution, alpha, material, bounces):
+    surface = Surface(*alpha, distribution, material, UNCORRELATED)
+    rng = np.random.default_rng(2)
+    path = random_paths(directions_above(rng, 4000), surface, bounces, rng)
+    wi, wo, below = ends(path)
+    ior = material.ior if material.transmits else 1.0
+    forward = contribution(path, surface) * np.abs(wi[:, 2:])
+    forward = forward / np.where(below, ior * ior, 1.0)[:, None]
+    backward = contribution(path.reversed(), surface) * np.abs(wo[:, 2:])
+    # paths end at any angle; only those that can leave and be entered contribute
+    leaves = path.o[-1][:, 2] > 0.0
+    assert leaves.sum() > 400
+    assert np.all(forward[~leaves] == 0.0)
+    # Beckmann stays where it sees the normal with a chance that underflows, exp(-(z / (alpha t))^2)
+    smallest = 1e-200
+    kept = leaves & (forward.max(axis=1) > smallest)
+    # of a refracted direction the facet is recovered from a difference: 1e-16 / |1 - eta| / alpha
+    np.testing.assert_allclose(forward[kept], backward[kept], rtol=1e-8)
+    assert kept.sum() > 0.8 * leaves.sum()
+
+
+def two_bounces(wi, d, wo):
+    """The path of Fig. 4 from wi = -d_{i-1} along ``d`` to wo = d_{i+1}, off mirrors."""
+    v, o = np.stack([wi, -d])[:, None], np.stack([d, wo])[:, None]
+    nowhere = np.zeros((2, 1), bool)
+    return Path(v, o, half_vector(v, o), nowhere, nowhere)
+
+
+@pytest.mark.parametrize("distribution", NDFS)
+@pytest.mark.parametrize("alpha", [(0.5, 0.5), (1.0, 1.0), (1.0, 0.3)])
+def test_correlated_paths_are_not_reciprocal(distribution, alpha):
+    surface = Surface(*alpha, distribution)
+    wi, d, wo = direction(1.2, 3.0), direction(1.7, 0.2), direction(0.4, 0.5)
+    lambda_i, lambda_d, lambda_o = (Lambda(w, surface) for w in (wi, -d, wo))
+    # eq. 25, with v below the horizon nowhere: G1(wi) G2(-d, wo)
+    forward = 1.0 / (1.0 + lambda_i) / (1.0 + lambda_d + lambda_o)
+    assert G1(wi, surface) * G2(-d, wo, surface) == pytest.approx(forward, rel=1e-12)
+    # eq. 26: [G1(wo) - G2(-d, wo)] G2(d, wi)
+    backward = lambda_d / ((1.0 + lambda_o) * (1.0 + lambda_o + lambda_d)) / (lambda_d + lambda_i)
+    found = G2_middle(wo, -d, surface) * G2(d, wi, surface)
+    assert found == pytest.approx(backward, rel=1e-9)
+    # a whole path differs from its reverse by just these terms, vertex terms being symmetric
+    path = two_bounces(wi, d, wo)
+    ratio = contribution(path, surface) * wi[2] / (contribution(path.reversed(), surface) * wo[2])
+    assert ratio[0, 0] == pytest.approx(forward / backward, rel=1e-9)
+    assert abs(forward / backward - 1.0) > 0.02
+    one = Surface(*alpha, distribution, model=UNCORRELATED)
+    ratio = contribution(path, one) * wi[2] / (contribution(path.reversed(), one) * wo[2])
+    assert ratio[0, 0] == pytest.approx(1.0, rel=1e-12)
+
+
+def differences(surface, pairs, walks, estimator=evaluate):
+    """Bounces 2 to 5 of rho(wi, wo) - rho(wo, wi) over their standard error, ``(pairs,)``."""
+    rng = np.random.default_rng(7)
+    wi, wo = directions_above(rng, pairs), directions_above(rng, pairs)
+    one = estimator(wi, wo, surface, 5, walks, rng)
+    other = estimator(wo, wi, surface, 5, walks, rng)
+    difference = (one.mean[1:] * wi[:, 2:] - other.mean[1:] * wo[:, 2:]).sum(axis=0)[:, 0]
+    variance = (one.variance[1:] * wi[:, 2:] ** 2 + other.variance[1:] * wo[:, 2:] ** 2).sum(axis=0)
+    return difference / np.sqrt(variance[:, 0])
+
+
+@pytest.mark.parametrize("estimator", [evaluate, bidirectional.evaluate], ids=["walk", "both ways"])
+@pytest.mark.parametrize("material", [Conductor(), Diffuse()], ids=["conductor", "diffuse"])
+def test_lobes_of_the_uncorrelated_model_are_reciprocal(material, estimator):
+    # Fig. 17: the histogram of differences is centred on zero
+    pairs = 600
+    centred = differences(Surface(1.0, 1.0, GGX, material, UNCORRELATED), pairs, 100, estimator)
+    assert abs(centred.mean()) < 4.0 * centred.std() / np.sqrt(pairs)
+    assert abs((centred > 0.0).mean() - 0.5) < 4.0 * 0.5 / np.sqrt(pairs)
+
+
+def test_lobes_of_the_correlated_model_are_not():
+    # the same statistic detects it: for half of the pairs the difference exceeds 4 standard errors
+    far = np.abs(differences(Surface(1.0, 1.0, GGX), 300, 3000))
+    assert np.median(far) > 4.0
+    near = np.abs(differences(Surface(1.0, 1.0, GGX, model=UNCORRELATED), 300, 3000))
+    assert np.median(near) < 1.0
+
+
+def test_height_tracked_paths_are_refused():
+    surface = Surface(0.5, 0.5, model=HEIGHT_TRACKED)
+    path = two_bounces(direction(0.3), direction(2.0, 0.2), direction(0.9, 0.5))
+    with pytest.raises(ValueError, match="model is 'HEIGHT_TRACKED'"):
+        contribution(path, surface)
+
+
+@pytest.mark.parametrize("model", [CORRELATED, UNCORRELATED])
+@pytest.mark.parametrize("material", MATERIALS, ids=NAMES)
+def test_contributions_follow_the_walk(model, material):
+    """The density of a drawn path and its weight are those of the walk, vertex by vertex."""
+    surface = Surface(0.5, 0.3, BECKMANN, material, model)
+    rng = np.random.default_rng(4)
+    path = random_paths(directions_above(rng, 100), surface, 3, rng)
+    np.testing.assert_array_equal(path.v[1:], -path.o[:-1])
+    np.testing.assert_array_equal(path.below[1:], (path.below ^ path.crossed)[:-1])
+    np.testing.assert_allclose(np.linalg.norm(path.o, axis=-1), 1.0, rtol=1e-12)
+    again = path.reversed().reversed()
+    np.testing.assert_array_equal(again.v, path.v)
+    np.testing.assert_array_equal(again.below, path.below)
