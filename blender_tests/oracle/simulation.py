@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Light that bounces on a height field: the surface that the models stand for.
+
+Nothing of Smith's theory is used here. Rays start evenly spread on a plane above the sheet, are
+scattered by the material at every facet they hit, and leave when they pass the highest point
+upwards or the lowest point downwards. The sheet is periodic: a ray that reaches its side goes on
+from the opposite one. Rays that the tracer loses are dropped and counted (ray_tracer.py).
+"""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from .estimate import Bounces, Energies
+from .materials import Material
+from .ray_tracer import Tracer
+from .vectors import outside, to_side
+
+
+@dataclass(frozen=True)
+class Hit:
+    """One bounce of the ``n`` rays that met the sheet once more; for the names see `walk.Vertex`.
+
+    ``walk`` ``(n,)``: which of the rays they are. ``v``, ``m``, ``o`` ``(n, 3)``, in the frame of
+    the ray's side; ``below`` and ``crossed`` ``(n,)``; ``weight`` ``(n, C)`` after the bounce.
+    ``left``, ``lost`` ``(n,)``: rays that leave now, and rays dropped on their way to the next
+    bounce; all others go on. ``dropped``: number of rays dropped so far, these included.
+    """
+
+    walk: np.ndarray
+    v: np.ndarray
+    below: np.ndarray
+    m: np.ndarray
+    o: np.ndarray
+    crossed: np.ndarray
+    weight: np.ndarray
+    left: np.ndarray
+    lost: np.ndarray
+    dropped: int
+
+    @property
+    def below_after(self) -> np.ndarray:
+        """Whether the ray is under the surface afterwards, ``(n,)``."""
+        return self.below ^ self.crossed
+
+    @property
+    def direction(self) -> np.ndarray:
+        """Direction of travel after the bounce, in the common frame, ``(n, 3)``."""
+        return _common(self.o, self.below_after)
+
+    @property
+    def leaving(self) -> np.ndarray:
+        """Weight that leaves at this bounce, ``(n, C)``."""
+        return self.weight * self.left[:, None]
+
+    @property
+    def staying(self) -> np.ndarray:
+        """Weight that goes on to the next bounce, ``(n, C)``."""
+        return self.weight * ~(self.left | self.lost)[:, None]
+
+
+@dataclass(frozen=True)
+class SimulatedEnergies(Energies):
+    """Energies per bounce, and the share of rays that were ``lost`` ``(...)``."""
+
+    lost: np.ndarray
+
+
+def simulate(
+    tracer: Tracer,
+    wi: np.ndarray,
+    material: Material,
+    max_bounces: int = 16,
+    rays: int = 100_000,
+    rng: np.random.Generator | int = 0,
+) -> Iterator[Hit]:
+    """Trace rays that come from ``wi`` ``(3,)``, above the surface or, where the material
+    transmits, below; yields bounce 1, 2, ... until ``max_bounces``, or until no ray is left.
+
+    ``rng`` a Generator or a seed. Raises ``ValueError`` for a direction that is not such a unit
+    vector, and for counts that are too small.
+    """
+    wi = outside(wi, "wi", material.transmits)
+    if wi.shape != (3,):
+        raise ValueError(f"wi has shape {wi.shape}; a simulation has one direction, shape (3,)")
+    for name, value in (("max_bounces", max_bounces), ("rays", rays)):
+        if value < 1:
+            raise ValueError(f"{name} is {value}; give 1 or more")
+    return _simulate(tracer, wi, material, max_bounces, rays, np.random.default_rng(rng))
+
+
+def _simulate(
+    tracer: Tracer,
+    wi: np.ndarray,
+    material: Material,
+    max_bounces: int,
+    rays: int,
+    rng: np.random.Generator,
+) -> Iterator[Hit]:
+    v, below = to_side(np.broadcast_to(wi, (rays, 3)))
+    walk = np.arange(rays)
+    weight = np.ones((rays, material.channels))
+    there = tracer.follow(tracer.start(rays, wi[2] < 0.0, rng), _common(-v, below), below)
+    dropped = int(there.lost.sum())
+    for _ in range(max_bounces):
+        on = np.flatnonzero(~(there.left | there.lost))
+        if on.size == 0:
+            return
+        walk, v, below, m, point, weight = (
+            one[on] for one in (walk, v, below, there.m, there.point, weight)
+        )
+        o, crossed, factor = material.scatter(v, m, below, rng)
+        weight = weight * factor
+        after = below ^ crossed
+        there = tracer.follow(tracer.off(point, after), _common(o, after), after)
+        dropped += int(there.lost.sum())
+        yield Hit(walk, v, below, m, o, crossed, weight, there.left, there.lost, dropped)
+        v, below = -o, after
+
+
+def simulated_energies(
+    tracers: Iterable[Tracer],
+    wi: np.ndarray,
+    material: Material,
+    max_bounces: int = 16,
+    rays: int = 100_000,
+    rng: np.random.Generator | int = 0,
+) -> SimulatedEnergies:
+    """Energy that leaves at each bounce of rays from ``wi`` ``(..., 3)``, mean over height fields.
+
+    ``tracers``: of at least two independent fields of one kind; of a generator, one at a time is
+    held. ``rays`` per field and direction. Variances come from the scatter of the fields, which
+    limits the accuracy more than the number of rays. Errors as in `simulate`.
+    """
+    wi = np.asarray(wi, dtype=np.float64)
+    rng = np.random.default_rng(rng)
+    runs = [
+        _shares(tracer, one, material, max_bounces, rays, rng)
+        for tracer in tracers
+        for one in wi.reshape(-1, 3)
+    ]
+    directions = wi.shape[:-1]
+    fields = len(runs) // max(1, math.prod(directions))
+    if fields < 2:
+        raise ValueError(f"tracers has {fields}; give 2 or more, to see how they scatter")
+    leaving, remaining, lost = (
+        np.reshape(part, (fields, *directions, *np.shape(part)[1:]))
+        for part in zip(*runs, strict=True)
+    )
+
+    def variance(values: np.ndarray) -> np.ndarray:
+        return values.var(axis=0, ddof=1) / fields
+
+    def over_fields(values: np.ndarray) -> Bounces:
+        return Bounces(
+            np.moveaxis(values.mean(axis=0), -2, 0),
+            np.moveaxis(variance(values), -2, 0),
+            variance(values.sum(axis=-2)),
+            remaining.mean(axis=0),
+        )
+
+    reflected, transmitted = leaving[..., 0, :, :], leaving[..., 1, :, :]
+    each = (reflected, transmitted, reflected + transmitted)
+    return SimulatedEnergies(*map(over_fields, each), lost.mean(axis=0))
+
+
+def _shares(
+    tracer: Tracer,
+    wi: np.ndarray,
+    material: Material,
+    max_bounces: int,
+    rays: int,
+    rng: np.random.Generator,
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """Energy reflected and transmitted at each bounce, ``(2, max_bounces, 3)``; what remains
+    ``(3,)``; and the share of rays lost."""
+    leaving, remaining, dropped = np.zeros((2, max_bounces, 3)), np.zeros(3), rays
+    for k, hit in enumerate(simulate(tracer, wi, material, max_bounces, rays, rng)):
+        through = hit.below_after ^ (wi[2] < 0.0)
+        leaving[0, k] = hit.leaving[~through].sum(axis=0) / rays
+        leaving[1, k] = hit.leaving[through].sum(axis=0) / rays
+        remaining[:] = hit.staying.sum(axis=0) / rays
+        dropped = hit.dropped
+    return leaving, remaining, dropped / rays
+
+
+def _common(w: np.ndarray, below: np.ndarray) -> np.ndarray:
+    """Directions ``(n, 3)`` of the frame of the side ``below`` ``(n,)`` in the common frame."""
+    return np.where(below[:, None], -w, w)
