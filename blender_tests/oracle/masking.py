@@ -15,7 +15,7 @@ first case of eq. 12 prints a sign that only makes sense as 1 + Lambda(wi); it i
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import betaln, digamma, zeta
+from scipy.special import betaln, digamma
 
 from .ndf import sigma
 from .surface import CORRELATED, UNCORRELATED, Surface
@@ -39,7 +39,10 @@ def G2(v: np.ndarray, o: np.ndarray, surface: Surface) -> np.ndarray:
 
     ``v`` on either side of the horizon; 0 where ``o.z <= 0``.
     """
-    return G1(v, surface) * exit_probability(v, o, surface)
+    v, o = np.asarray(v, dtype=np.float64), np.asarray(o, dtype=np.float64)
+    cos_v, cos_o = np.abs(v[..., 2]), np.maximum(o[..., 2], 0.0)
+    # not G1 p_exit, which is infinity times 0 where no facet is visible from v, and this is not
+    return cos_v * cos_o / (sigma(v, surface) * cos_o + sigma(-o, surface) * cos_v)
 
 
 def G2_middle(v: np.ndarray, o: np.ndarray, surface: Surface) -> np.ndarray:
@@ -99,9 +102,10 @@ def _correlated_crossed(
     """p_exit = a B(a, 1 + Lambda(o)), a = |1 + Lambda(v)|: eq. 15 for a path that goes through.
 
     Arriving paths see heights whose distribution function u has density a u^(a-1); the other side
-    is left with the chance (1 - u)^Lambda(o). The integral, Gamma(1 + a) Gamma(1 + Lambda) /
-    Gamma(1 + a + Lambda), is symmetric; in the smaller of both it starts as
-    1 - small (psi(1 + large) + Euler's gamma), where the difference of logarithms cancels.
+    is left with the chance (1 - u)^Lambda(o). That is Gamma(1 + a) Gamma(1 + Lambda) /
+    Gamma(1 + a + Lambda), which is symmetric. Where the smaller of both is small the logarithms
+    cancel; there the integral of psi(1 + x) - psi(1 + large + x) over x up to small, psi being the
+    digamma function, keeps the digits.
     """
     up = o[..., 2] > 0.0
     # v that sees no facet, sigma(v) = 0, carries no weight; the floor keeps 0 * infinity away
@@ -109,9 +113,11 @@ def _correlated_crossed(
     big_lambda = np.where(up, _ratio(area_back, np.maximum(o[..., 2], 0.0)), 1.0)
     log_exit = np.asarray(np.minimum(np.log(a) + betaln(a, 1.0 + big_lambda), 0.0))
     small, large = np.minimum(a, big_lambda), 1.0 + np.maximum(a, big_lambda)
-    tiny = small < 1e-4  # the next term of the series is of the order of its square
+    tiny = small < 1e-2
     s, t = small[tiny], large[tiny]
-    log_exit[tiny] = -s * (digamma(t) + np.euler_gamma - 0.5 * s * (zeta(2.0) - zeta(2.0, t)))
+    # the two points of Gauss's rule; its error is of relative order small^4 / 200
+    nodes = (s * (0.5 - np.sqrt(1.0 / 12.0)), s * (0.5 + np.sqrt(1.0 / 12.0)))
+    log_exit[tiny] = 0.5 * s * sum(digamma(1.0 + x) - digamma(t + x) for x in nodes)
     return ExitOdds(np.where(up, np.exp(log_exit), 0.0), np.where(up, -np.expm1(log_exit), 1.0))
 
 
@@ -156,7 +162,8 @@ def first_height(v: np.ndarray, area_v: np.ndarray, rng: np.random.Generator) ->
 
 def height_from_below(log_u: np.ndarray) -> np.ndarray:
     """log(1 - u) from log(u) ``(n,)``: the same height seen from the surface's other side."""
-    return np.log(np.maximum(-np.expm1(log_u), 1e-300))
+    near_top = np.log(np.maximum(-np.expm1(log_u), 1e-300))
+    return np.where(log_u > -1.0, near_top, np.log1p(-np.exp(np.minimum(log_u, -1.0))))
 
 
 def _ratio(numerator: np.ndarray, denominator: np.ndarray) -> np.ndarray:
