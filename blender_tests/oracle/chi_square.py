@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pearson's chi-square test of draws against a density over a square of cells."""
+"""Pearson's chi-square test of draws against a density, over a grid of cells."""
 
 from collections.abc import Callable
 
@@ -35,23 +35,31 @@ def p_value(observed: np.ndarray, expected: np.ndarray) -> float:
     return float(chi2.sf(((observed - expected) ** 2 / expected).sum(), expected.size - 1))
 
 
-def count_in_cells(x: np.ndarray, y: np.ndarray, side: int) -> np.ndarray:
-    """Number of points of the unit square ``(n,)`` in each of its cells, ``(side, side)``."""
-    counts = np.histogram2d(x, y, side, [[0.0, 1.0], [0.0, 1.0]])[0]
+def count_in_cells(
+    x: np.ndarray, y: np.ndarray, x_edges: np.ndarray, y_edges: np.ndarray
+) -> np.ndarray:
+    """Number of points ``(n,)`` in each cell between the edges, ``(columns, rows)``."""
+    counts = np.histogram2d(x, y, [x_edges, y_edges])[0]
     if counts.sum() != x.size:
-        raise ValueError(f"{x.size - counts.sum():.0f} points are outside of the unit square")
+        raise ValueError(f"{x.size - counts.sum():.0f} points are outside of all cells")
     return counts
 
 
 def integrate_cells(
-    density: Callable[[np.ndarray, np.ndarray], np.ndarray], side: int, nodes: int = 12
+    density: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    x_edges: np.ndarray,
+    y_edges: np.ndarray,
+    nodes: int = 12,
 ) -> np.ndarray:
-    """Integral of ``density(x, y)`` over each cell of the unit square, ``(side, side)``, by a Gauss
-    rule of ``nodes`` x ``nodes`` points in every cell."""
+    """Integral of ``density(x, y)`` over each cell between the edges, ``(columns, rows)``, by a
+    Gauss rule of ``nodes`` x ``nodes`` points in every cell."""
     node, weight = gauss_legendre(nodes, 0.0, 1.0)
-    x = ((np.arange(side)[:, None] + node) / side).ravel()
-    value = density(*np.meshgrid(x, x, indexing="ij")).reshape(side, nodes, side, nodes)
-    return np.einsum("iajb,a,b->ij", value, weight, weight) / side**2
+    width, height = np.diff(x_edges), np.diff(y_edges)
+    x = (x_edges[:-1, None] + width[:, None] * node).ravel()
+    y = (y_edges[:-1, None] + height[:, None] * node).ravel()
+    value = density(*np.meshgrid(x, y, indexing="ij"))
+    value = value.reshape(width.size, nodes, height.size, nodes)
+    return np.einsum("iajb,a,b->ij", value, weight, weight) * width[:, None] * height
 
 
 def uniform_p_value(u: np.ndarray, cells: int = 100) -> float:

@@ -3,9 +3,10 @@
 formulas.
 
 Micronormals are written m ~ (alpha_x r cos(psi), alpha_y r sin(psi), 1) with r = q/(1-q), so that a
-rule over the unit square in (q, psi) resolves every alpha alike. Directions about a pole are
-written with tan(angle/2) = width r, so that one square holds the whole sphere and resolves a lobe.
+rule over the unit square in (q, psi) resolves every alpha alike.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import log_ndtr
@@ -82,59 +83,92 @@ def basis(pole: np.ndarray) -> np.ndarray:
     return np.stack([x, np.cross(pole, x), pole])
 
 
-def directions_about(
-    pole: np.ndarray, width: float, q: np.ndarray, turns: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Directions ``(..., 3)`` of the whole sphere at ``q`` and ``turns`` in (0, 1), which resolve
-    angles of 2 ``width`` about ``pole``, and steradians per dq dturns."""
-    t = width * q / (1.0 - q)  # tan(angle/2)
-    phi = 2.0 * np.pi * turns
-    x, y, z = basis(pole)
-    across = np.cos(phi)[..., None] * x + np.sin(phi)[..., None] * y
-    o = (2.0 * t[..., None] * across + (1.0 - t * t)[..., None] * z) / (1.0 + t * t)[..., None]
-    return o, 8.0 * np.pi * t * width / ((1.0 + t * t) * (1.0 - q)) ** 2
+@dataclass(frozen=True)
+class Zone:
+    """Directions o with ``z_low`` < o.z < ``z_high``, up to ``high`` radians from ``v`` ``(3,)``.
 
-
-def coordinates_about(
-    pole: np.ndarray, width: float, o: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """The ``q`` and ``turns`` of directions ``o`` ``(n, 3)`` in `directions_about`."""
-    x, y, z = basis(pole) @ o.T
-    across = np.hypot(x, y)
-    t = np.where(z > 0.0, across / (1.0 + np.abs(z)), (1.0 + np.abs(z)) / across)
-    return t / (width + t), np.mod(np.arctan2(y, x) / (2.0 * np.pi), 1.0)
-
-
-def zone(
-    v: np.ndarray, angles: list[float], z_low: float, z_high: float, count: int = 120
-) -> tuple[np.ndarray, np.ndarray]:
-    """Rule over the directions o with ``z_low`` < o.z < ``z_high`` whose angle from ``v`` ``(3,)``
-    lies between the first and the last of ``angles``: ``(n, 3)`` and ``(n,)``.
-
-    The integrand may have a kink or a square root's end at each of ``angles``. The two planes bound
-    the azimuth about v exactly, from the angles on at which their circles touch the cone.
+    Its coordinates are the angle from v, and a share of the azimuths about v that the two planes
+    allow at that angle: 0 to 1 on one side of the plane through v and z, -1 to 0 on the other. So a
+    rule in them meets no edge inside, except at the angles ``breaks``, of which one may be the
+    integrand's own ``kink``.
     """
-    theta = np.arccos(np.clip(v[2], -1.0, 1.0))
-    planes = np.arccos(np.clip([z_low, z_high], -1.0, 1.0))
-    touching = [*np.abs(planes - theta), *(np.pi - np.abs(np.pi - planes - theta))]
-    inside = [a for a in touching if angles[0] < a < angles[-1]]
-    ends = np.unique([*angles, *inside])
-    node, node_weight = gauss_legendre(count, 0.0, 1.0)
-    smooth, slope = node * node * (3.0 - 2.0 * node), 6.0 * node * (1.0 - node)
-    angle = (ends[:-1, None] + np.diff(ends)[:, None] * smooth).ravel()
-    angle_weight = (np.diff(ends)[:, None] * slope * node_weight).ravel()
-    cosine, sine = np.cos(angle), np.sin(angle)
-    bounds = (np.array([[z_high], [z_low]]) - cosine * v[2]) / (sine * max(np.sin(theta), 1e-12))
-    first, last = np.arccos(np.clip(bounds, -1.0, 1.0))
-    phi = first[:, None] + (last - first)[:, None] * node
-    weight = (angle_weight * sine * (last - first))[:, None] * node_weight
-    x = np.array([0.0, 0.0, 1.0]) - v[2] * v  # towards z, where phi is 0
-    x = x / np.linalg.norm(x) if theta % np.pi > 1e-9 else basis(v)[0]
-    along, y = cosine[:, None, None] * v, np.cross(v, x)
-    towards = along + (sine[:, None] * np.cos(phi))[..., None] * x
-    sideways = (sine[:, None] * np.sin(phi))[..., None] * y
-    both = np.stack([towards + sideways, towards - sideways])
-    return both.reshape(-1, 3), np.tile(weight.ravel(), 2)
+
+    v: np.ndarray
+    high: float = np.pi
+    z_low: float = -1.0
+    z_high: float = 1.0
+    kink: float = 0.0
+
+    @property
+    def breaks(self) -> np.ndarray:
+        """0, ``high``, and between them the kink and the angles where the cone about v touches one
+        of the planes' circles; ascending."""
+        theta = np.arccos(np.clip(self.v[2], -1.0, 1.0))
+        planes = np.arccos(np.clip([self.z_low, self.z_high], -1.0, 1.0))
+        touching = [*np.abs(planes - theta), *(np.pi - np.abs(np.pi - planes - theta))]
+        inside = [angle for angle in (*touching, self.kink) if 0.0 < angle < self.high]
+        return np.unique([0.0, *inside, self.high])
+
+    def directions(self, angle: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Directions ``(..., 3)`` at the coordinates, and steradians per unit of both."""
+        first, last = self._bounds(angle)
+        phi = np.sign(share) * (first + (last - first) * np.abs(share))
+        x, y, _ = self._basis()
+        across = np.cos(phi)[..., None] * x + np.sin(phi)[..., None] * y
+        o = np.cos(angle)[..., None] * self.v + np.sin(angle)[..., None] * across
+        return o, np.sin(angle) * (last - first)
+
+    def coordinates(self, o: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The coordinates of directions ``o`` ``(n, 3)`` in the zone."""
+        x, y, z = self._basis() @ o.T
+        angle = np.arctan2(np.hypot(x, y), z)
+        first, last = self._bounds(angle)
+        phi = np.arctan2(y, x)
+        share = (np.abs(phi) - first) / np.where(last > first, last - first, 1.0)
+        return angle, np.copysign(np.clip(share, 0.0, 1.0), phi)
+
+    def rule(self, count: int = 100) -> tuple[np.ndarray, np.ndarray]:
+        """Points ``(n, 3)`` and weights ``(n,)``; ``count`` nodes a coordinate between breaks. The
+        variable is cubed such that an integrand may begin and end like a square root there."""
+        node, weight = gauss_legendre(count, 0.0, 1.0)
+        smooth, slope = node * node * (3.0 - 2.0 * node), 6.0 * node * (1.0 - node)
+        start, width = self.breaks[:-1, None], np.diff(self.breaks)[:, None]
+        angle, angle_weight = (start + width * smooth).ravel(), (width * slope * weight).ravel()
+        share, share_weight = np.concatenate([-node, node]), np.concatenate([weight, weight])
+        o, measure = self.directions(*np.meshgrid(angle, share, indexing="ij"))
+        return o.reshape(-1, 3), (measure * angle_weight[:, None] * share_weight).ravel()
+
+    def _bounds(self, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Least and greatest azimuth in 0..pi from the direction of z."""
+        span = np.sin(angle) * max(np.hypot(self.v[0], self.v[1]), 1e-12)
+        span, level = np.maximum(span, 1e-300), np.cos(angle) * self.v[2]
+        limits = ((one - level) / span for one in (self.z_high, self.z_low))
+        return tuple(np.arccos(np.clip(one, -1.0, 1.0)) for one in limits)
+
+    def _basis(self) -> np.ndarray:
+        """Rows x, y and v, with x towards z."""
+        if np.hypot(self.v[0], self.v[1]) < 1e-9:
+            return basis(self.v)
+        x = np.array([0.0, 0.0, 1.0]) - self.v[2] * self.v
+        x /= np.linalg.norm(x)
+        return np.stack([x, np.cross(self.v, x), self.v])
+
+
+def facet_zones(v: np.ndarray, eta: float | None = None) -> list[Zone]:
+    """The zones of all directions to which facets, m.z > 0, turn ``v`` ``(3,)``: by reflection, and
+    where ``eta``, the index beyond over that on this side, is given, by refraction.
+
+    As in materials.py the refracted directions are in the frame of the other side.
+    """
+    if eta is None:
+        return [Zone(v, z_low=-v[2])]  # the facet's normal is along v + o
+    # F has a kink at the critical angle, and o is then twice that angle away
+    critical = 2.0 * np.arcsin(min(eta, 1.0))
+    # the normal is along v - eta o or opposite to it; the widest turn is that of a grazing ray
+    plane = np.clip(v[2] / eta, -1.0, 1.0)
+    limits = (plane, 1.0) if eta > 1.0 else (-1.0, plane)
+    widest = np.arccos(min(eta, 1.0 / eta))
+    return [Zone(v, z_low=-v[2], kink=critical), Zone(v, widest, *limits)]
 
 
 def heights() -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -17,7 +17,7 @@ from blender_tests.oracle import (
 )
 from blender_tests.oracle.fresnel import dielectric_reflectance
 from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import basis, visible_normals, zone
+from blender_tests.oracle.quadrature import Zone, basis, facet_zones, visible_normals
 from blender_tests.oracle.surface import BECKMANN
 from blender_tests.oracle.vectors import direction, dot, normalize
 
@@ -166,17 +166,6 @@ def test_no_facet_turns_light_the_wrong_way(surface, crossed):
         assert 0 < legal.sum() < legal.size
 
 
-def reflected_and_transmitted(v, eta, count=100):
-    """Rules over all o that some facet turns v to: reflected, and transmitted unless eta is 1."""
-    critical = 2.0 * np.arccos(critical_cosine(eta))  # the angle from v to o where F has a kink
-    mirror = zone(v, [0.0, critical, np.pi], -v[2], 1.0, count)  # h.z > 0
-    # h is along +-(v - eta o), h.z > 0; and the widest turn is grazing on the denser side
-    plane = np.clip(v[2] / eta, -1.0, 1.0)
-    limits = (plane, 1.0) if eta > 1.0 else (-1.0, plane)
-    through = zone(v, [0.0, np.arccos(min(eta, 1.0 / eta))], *limits, count)
-    return mirror, through
-
-
 @pytest.mark.parametrize("theta", [0.0, 0.7, 1.5, 1.9], ids="theta={}".format)
 @pytest.mark.parametrize("below", SIDES, ids=side_id)
 @pytest.mark.parametrize("ior", IORS, ids=ior_id)
@@ -184,7 +173,8 @@ def reflected_and_transmitted(v, eta, count=100):
 def test_dielectric_vertex_terms_sum_to_one(surface, ior, below, theta):
     v, material = direction(theta, 0.6), Dielectric(ior)
     total = 0.0
-    for crossed, (o, weight) in enumerate(reflected_and_transmitted(v, 1 / ior if below else ior)):
+    for crossed, zone in enumerate(facet_zones(v, 1.0 / ior if below else ior)):
+        o, weight = zone.rule()
         turn = material.turn(
             v, o, None, np.array(below), np.array(bool(crossed)), partial(D, surface=surface)
         )
@@ -196,7 +186,7 @@ def test_dielectric_vertex_terms_sum_to_one(surface, ior, below, theta):
 @pytest.mark.parametrize("surface", SURFACES, ids=name)
 def test_conductor_vertex_term_sums_to_one(surface, theta):
     v = direction(theta, 0.6)
-    o, weight = zone(v, [0.0, np.pi], -v[2], 1.0, 100)
+    o, weight = facet_zones(v)[0].rule()
     turn = Conductor().turn(
         v, o, None, np.array(False), np.array(False), partial(D, surface=surface)
     )
@@ -211,7 +201,7 @@ def test_diffuse_vertex_term_sums_to_its_albedo(surface, theta):
     m, m_weight = visible_normals(v, surface, 20)
     total = np.zeros(3)
     for one, share in zip(m, m_weight, strict=True):
-        o, weight = zone(one, [0.0, np.pi / 2], -1.0, 1.0, 12)
+        o, weight = Zone(one, np.pi / 2).rule(12)
         turn = Diffuse(albedo).turn(
             v, o, one, np.array(False), np.array(False), partial(D, surface=surface)
         )

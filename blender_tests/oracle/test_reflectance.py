@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reflectance of a dielectric against known values, itself from the other side, and decimals."""
+"""A dielectric's reflectance against known values, its other side, and 60 digits."""
 
 from decimal import Decimal, localcontext
 
@@ -19,7 +19,8 @@ def test_reflectance_at_known_angles(eta):
     brewster = float(dielectric_reflectance(np.cos(np.arctan(np.array(eta))), eta))
     assert brewster == pytest.approx(0.5 * ((eta**2 - 1.0) / (eta**2 + 1.0)) ** 2, rel=1e-11)
     assert float(dielectric_reflectance(np.array(0.0), eta)) == pytest.approx(1.0, rel=1e-15)
-    # next to grazing 1 - F falls off linearly: 4 c (1/eta + eta) / (2 sqrt(1 - 1/eta^2)) of p and s
+    # next to grazing 1 - F is 4 c / g for the s wave and 4 eta^2 c / g for the p wave, with
+    # g = sqrt(eta^2 - 1)
     if eta > 1.1:
         c = 1e-7
         slope = 2.0 * (1.0 + eta * eta) / np.sqrt(eta * eta - 1.0)
