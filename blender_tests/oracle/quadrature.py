@@ -127,7 +127,7 @@ class Zone:
         share = (np.abs(phi) - first) / np.where(last > first, last - first, 1.0)
         return angle, np.copysign(np.clip(share, 0.0, 1.0), phi)
 
-    def rule(self, count: int = 100) -> tuple[np.ndarray, np.ndarray]:
+    def rule(self, count: int = 80) -> tuple[np.ndarray, np.ndarray]:
         """Points ``(n, 3)`` and weights ``(n,)``; ``count`` nodes a coordinate between breaks. The
         variable is cubed such that an integrand may begin and end like a square root there."""
         node, weight = gauss_legendre(count, 0.0, 1.0)

@@ -30,7 +30,7 @@ from blender_tests.oracle.vectors import direction, dot, normalize, vector
 
 ALPHAS = [(0.1, 0.1), (0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
 SURFACES = [Surface(x, y, ndf) for ndf in (GGX, BECKMANN) for x, y in ALPHAS]
-AZIMUTHS = [0.0, 0.7, np.pi / 2]
+AZIMUTHS = [0.0, 1.0]
 # 0 to pi, and 1e-3 and 1e-6 on both sides of the horizon, where G1 is 0/0 only at pi/2 itself.
 ANGLES = np.sort(
     np.concatenate(
@@ -41,7 +41,7 @@ ANGLES = np.sort(
 RELATIVE = 1e-12
 # The rule over heights is good to 3e-13.
 OVER_HEIGHTS = 2e-12
-# Of a B(a, 1 + Lambda) differences of logarithms and a series are left; at most 6e-9, for a up to 1e6.
+# a B(a, 1 + Lambda) is made of differences of logarithms and an integral: 6e-9 at most up to a = 1e6.
 CROSSED = 2e-8
 UP = direction(0.0)
 

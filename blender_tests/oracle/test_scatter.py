@@ -26,7 +26,7 @@ ANGLES = [0.3, 1.2, 1.56, 2.0]
 FACETS = [
     (Conductor(), False),
     *((Dielectric(ior), False) for ior in (1.1, 1.5, 2.4, 1.0 / 1.5)),
-    *((Dielectric(ior), True) for ior in (1.1, 1.5, 2.4)),
+    *((Dielectric(ior), True) for ior in (1.5, 2.4)),
 ]
 SMOOTH = [
     (Surface(*alpha, ndf, material), theta, below)

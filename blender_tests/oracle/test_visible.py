@@ -22,7 +22,7 @@ CASES = [
     for theta in ANGLES
     if not (ndf == BECKMANN and alpha == (0.05, 0.05) and theta == 2.0)
 ]
-DRAWS = {"random": 200_000, "inverted": 20_000}  # bisection is slow
+DRAWS = {"random": 200_000, "inverted": 10_000}  # bisection is slow
 # One chance in a hundred that the whole family of tests fails a right sampler.
 SIGNIFICANCE = sidak(len(DRAWS) * len(CASES))
 EDGES = np.linspace(0.0, 1.0, 25)  # of cells in the coordinates of `stretched_normals`
