@@ -41,7 +41,7 @@ ANGLES = np.sort(
 RELATIVE = 1e-12
 # The rule over heights is good to 3e-13.
 OVER_HEIGHTS = 2e-12
-# a B(a, 1 + Lambda) is made of differences of logarithms and an integral: 6e-9 at most up to a = 1e6.
+# a B(a, 1 + Lambda) is made of logarithms and an integral: good to 6e-9 up to a = 1e6.
 CROSSED = 2e-8
 UP = direction(0.0)
 
