@@ -17,7 +17,7 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 .NOTPARALLEL:
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references tables scenes clean
+.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references figures tables scenes clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -56,6 +56,9 @@ addon: ## Build the extension's zip into dist/ and validate it
 
 references: ## Render the oracle's reference pictures anew (about ten minutes)
 	@$(any) -m blender_tests.oracle.references
+
+figures: ## Draw the supplement's figures anew (docs/figures; about eight minutes on two cores)
+	@$(any) -m blender_tests.figures
 
 tables: ## Fit the shaders' tables anew (osl/tables)
 	@$(any) osl/tables/ierfcx.py
