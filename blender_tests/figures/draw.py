@@ -79,9 +79,9 @@ def _shorten(text: str) -> str:
         return f"{float(match[0]):.1f}".removesuffix(".0")
 
     def path(match: re.Match) -> str:
-        rounded = re.sub(r"-?\d+\.\d+", number, match[1])
-        lines = re.sub(r"\s+L\s+", " ", rounded)  # pairs after a move or a line are lines
-        return f' d="{lines.strip()}"'
+        rounded = " ".join(re.sub(r"-?\d+\.\d+", number, match[1]).split())
+        # pairs that follow a move or a line are lines; after a curve they would be more of it
+        return f' d="{re.sub("(?<=[ML])[^A-Za-z]*(?:L[^A-Za-z]*)+", _lines, rounded)}"'
 
     text = re.sub(r' d="([^"]*)"', path, text)
     # one family for all texts, which ends with what every viewer has
@@ -89,3 +89,7 @@ def _shorten(text: str) -> str:
     text = text.replace("butt}</style>", f"butt}} text{{font-family: {_FONTS}}}</style>")
     text = re.sub(r' transform="rotate\(-0 [^"]*\)"', "", text)
     return "\n".join(line.strip() for line in text.splitlines()) + "\n"
+
+
+def _lines(match: re.Match) -> str:
+    return match[0].replace("L ", "")

@@ -24,7 +24,7 @@ def draw_masking(curves: dict[MaskingCurve, Result]) -> str:
     title = "Distant masking G₁ on the full sphere"
     heading(
         page,
-        f"Fig. {MASKING}   {title}",
+        f"Fig. {MASKING}: {title}",
         "Lines: eq. (3). Circles: numeric integral, eq. (4). It may exceed 1 below the horizon, "
         "θ > π/2. Lower row: relative difference.",
     )
@@ -68,9 +68,9 @@ def draw_reciprocity(models: dict[str, Pairs]) -> str:
     title = "Reciprocity of the models"
     heading(
         page,
-        f"Fig. {RECIPROCITY}   {title}",
+        f"Fig. {RECIPROCITY}: {title}",
         "White rough conductor, GGX, α = 1. Random pairs of directions, of which ωi is always the "
-        "more grazing one.",
+        "more grazing one; the outermost 0.5 % are not shown.",
     )
     wide = (WIDTH - _LEFT - _GAP - 0.15) / 2
     for column, model in enumerate(RECIPROCITY_MODELS):

@@ -72,7 +72,7 @@ def draw(figure: LobeFigure, panels: dict[tuple[str, float], Lobes]) -> str:
     page = Figure(figsize=(WIDTH, _TOP + sum(steps)))
     heading(
         page,
-        f"Fig. {figure.number}   {figure.title}",
+        f"Fig. {figure.number}: {figure.title}",
         "Where light leaves, by angle in the plane of incidence. Areas are proportional to energy; "
         "dotted: a Lambertian surface.",
     )
