@@ -15,6 +15,7 @@ from blender_tests.oracle.surface import (
 )
 
 from .cache import Task
+from .estimators import Estimators
 from .masking_curves import MaskingCurve
 from .reciprocity import Reciprocity
 from .traced import RESOLUTION, Traced
@@ -42,7 +43,8 @@ RECIPROCITY = 17
 class Effort:
     """How much is computed: ``walks`` on each model; ``sheets``, in groups of ``group`` (even), and
     ``rays`` on each, of ``cells`` squared; ``fine`` sheets of twice the resolution, an even number;
-    ``pairs`` of directions, in chunks, and walks for each; ``angles`` of a masking curve."""
+    ``pairs`` of directions, in chunks, and walks for each; ``angles`` of a masking curve; pairs and
+    walks of ``estimates`` that are made in two ways."""
 
     walks: int
     sheets: int
@@ -54,6 +56,7 @@ class Effort:
     chunk: int
     pair_walks: int
     angles: int
+    estimates: tuple[int, int]
 
 
 FULL = Effort(
@@ -67,6 +70,7 @@ FULL = Effort(
     chunk=64,
     pair_walks=8192,
     angles=180,
+    estimates=(64, 8192),
 )
 QUICK = Effort(
     walks=1 << 12,
@@ -79,6 +83,7 @@ QUICK = Effort(
     chunk=64,
     pair_walks=256,
     angles=36,
+    estimates=(8, 64),
 )
 
 
@@ -186,6 +191,19 @@ def ggx(effort: Effort) -> list[Walked]:
     ]
 
 
+def estimators(effort: Effort) -> dict[tuple[str, str, Alpha], Estimators]:
+    """The tasks that compare the walk with the bidirectional estimator, by model, material and
+    width: GGX, which has more further bounces."""
+    return {
+        (model, material, alpha): Estimators(
+            Surface(*alpha, GGX, MATERIALS[material], MODELS[model]), *effort.estimates
+        )
+        for model in RECIPROCITY_MODELS
+        for material in MATERIALS
+        for alpha in ((0.25, 0.25), (1.0, 1.0))
+    }
+
+
 def whole(numbers: Collection[int]) -> bool:
     """Whether these are all figures, so that the README belongs to them."""
     return set(numbers) == set(NUMBERS)
@@ -204,4 +222,6 @@ def tasks(numbers: Collection[int], effort: Effort) -> list[Task]:
             found += traced(figure.alpha, effort)
     if RECIPROCITY in numbers:
         found += [task for model in RECIPROCITY_MODELS for task in reciprocity(model, effort)]
-    return found + (ggx(effort) + finer(effort) if whole(numbers) else [])
+    if whole(numbers):
+        found += [*ggx(effort), *finer(effort), *estimators(effort).values()]
+    return found

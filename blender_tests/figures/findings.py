@@ -11,6 +11,7 @@ from blender_tests.oracle.surface import BECKMANN, GGX
 from . import cases
 from .cache import Result, Task
 from .cases import ALPHAS, MATERIALS, MODELS, SIMULATED, THETAS, TRACKED, Alpha, Effort, LobeFigure
+from .estimators import Gain
 from .lobes import Lobes, by_lobe
 from .masking_curves import MaskingCurve
 from .reciprocity import Pairs
@@ -20,14 +21,16 @@ Panels = dict[tuple[str, float], Lobes]  # by column and angle
 
 @dataclass(frozen=True)
 class Findings:
-    """The data of the figures, by what tells them apart within a figure. ``ggx`` and ``finer``,
-    the simulated column of `cases.FINER` on finer sheets, belong to the README."""
+    """The data of the figures, by what tells them apart within a figure. To the README belong
+    ``ggx``; ``finer``, the simulated column of `cases.FINER` on finer sheets; and ``gains``, by
+    model, material and width."""
 
     masking: dict[MaskingCurve, Result]
     lobes: dict[LobeFigure, Panels]
     pairs: dict[str, Pairs]
     ggx: dict[Alpha, Panels]
     finer: Panels
+    gains: dict[tuple[str, str, Alpha], Gain]
 
     @classmethod
     def sort(
@@ -38,6 +41,7 @@ class Findings:
         curves = cases.masking_curves(effort) if cases.MASKING in numbers else []
         models = cases.RECIPROCITY_MODELS if cases.RECIPROCITY in numbers else ()
         ggx, finer = (ALPHAS, cases.finer(effort)) if cases.whole(numbers) else ((), [])
+        estimators = cases.estimators(effort) if cases.whole(numbers) else {}
         return cls(
             {curve: found[curve] for curve in curves},
             {figure: _figure_panels(figure, found, effort) for figure in figures},
@@ -47,6 +51,7 @@ class Findings:
             },
             {alpha: _walked_panels(GGX, "conductor", alpha, found, effort) for alpha in ggx},
             _traced_panels([found[task] for task in finer], 0) if finer else {},
+            {case: Gain.of(found[task]) for case, task in estimators.items()},
         )
 
 

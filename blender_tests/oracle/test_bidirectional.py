@@ -67,11 +67,12 @@ def around(axis, angle, count, rng):
     return local @ np.stack([x, np.cross(axis, x), axis])
 
 
-def test_narrow_peaks_that_the_walk_misses():
+@pytest.mark.parametrize("model", [CORRELATED, UNCORRELATED])
+def test_narrow_peaks_that_the_walk_misses(model):
     """IOR 1.05: light that crosses, is reflected, and crosses back. The walk's connections meet
     its narrow peaks too rarely; counting the walks that leave within a cone settles who is right.
     """
-    surface = Surface(0.3, 0.3, GGX, Dielectric(1.05), UNCORRELATED)
+    surface = Surface(0.3, 0.3, GGX, Dielectric(1.05), model)
     wo, angle = direction(0.5, 2.0), 0.3
     rng = np.random.default_rng(3)
     batches, walks = 20, 200_000
