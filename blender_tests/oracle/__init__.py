@@ -12,22 +12,34 @@ the light. A vertex receives the path from ``v`` (minus the direction of travel)
 
 from .estimate import Bounces, Energies, energies, evaluate, lobe
 from .fresnel import F82Tint, IndexOfRefraction, White
+from .height_field import HeightField
 from .materials import Conductor, Dielectric, Diffuse
-from .surface import Surface
+from .ray_tracer import Tracer
+from .simulation import simulate, simulated_energies
+from .surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, UNCORRELATED, Surface
 from .walk import first_bounce
 
 __all__ = [
+    "BECKMANN",
+    "CORRELATED",
+    "GGX",
+    "HEIGHT_TRACKED",
+    "UNCORRELATED",
     "Bounces",
     "Conductor",
     "Dielectric",
     "Diffuse",
     "Energies",
     "F82Tint",
+    "HeightField",
     "IndexOfRefraction",
     "Surface",
+    "Tracer",
     "White",
     "energies",
     "evaluate",
     "first_bounce",
     "lobe",
+    "simulate",
+    "simulated_energies",
 ]

@@ -8,17 +8,18 @@ with which all ways would have drawn the same path. s = k - 1 alone is the one-w
 never finds some narrow peaks, such as those of a dielectric of IOR near 1 (test_bidirectional.py).
 """
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import logsumexp
 
+from .checks import generator
 from .estimate import Bounces, Moments, batches
 from .path import Path, Terms, log_contribution, random_paths, terms
 from .surface import Surface
-from .vectors import outside, to_side
+from .vectors import to_side
 from .visible import sample
-from .walk import first_bounce
+from .walk import first_bounce, pairs
 
 
 def evaluate(
@@ -35,20 +36,19 @@ def evaluate(
     ``ValueError`` for the height-tracked model, whose paths cannot be joined by directions alone.
     ``remaining`` is not estimated: nan.
     """
-    transmits = surface.material.transmits
-    wi, wo = np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
+    wi, wo = pairs(wi, wo, surface)
     flat, target = wi.reshape(-1, 3), wo.reshape(-1, 3)
-    rng = np.random.default_rng(rng)
+    rng = generator(rng)
     moments = Moments(max_bounces, flat.shape[0], walks, surface)
     exact = surface.material.smooth
-    for pairs, count in batches(flat.shape[0], walks):
-        moments.start(pairs, count)
-        start, end = (np.repeat(w[pairs], count, axis=0) for w in (flat, target))
-        from_wi, from_wo = (random_paths(w, surface, max_bounces, rng) for w in (start, end))
+    for rows, each in batches(flat.shape[0], walks):
+        moments.start(rows, each)
+        start, end = (np.repeat(w[rows], each, axis=0) for w in (flat, target))
+        # the vertex that joins two walks is counted with neither
+        near, far = (_Walks.start(w, surface, max_bounces - 1, rng) for w in (start, end))
         walk = np.arange(start.shape[0])
-        for k, value in enumerate(_values(start, end, from_wi, from_wo, surface, rng)):
-            if k > 0 or not exact:
-                moments.add(k, walk, value)
+        for k in range(2 if exact else 1, max_bounces + 1):
+            moments.add(k - 1, walk, _value(k, near, far, surface, rng))
         moments.finish()
     if exact:
         moments.mean[0] = first_bounce(flat, target, surface)[:, : moments.channels]
@@ -56,34 +56,44 @@ def evaluate(
     return moments.result(wi.shape[:-1])
 
 
-def _values(
-    start: np.ndarray,
-    end: np.ndarray,
-    from_wi: Path,
-    from_wo: Path,
-    surface: Surface,
-    rng: np.random.Generator,
-) -> Iterator[np.ndarray]:
-    """Estimates of bounce 1, 2, ... from one pair of walks each, ``(n, C)``."""
-    longest = from_wi.v.shape[0]
-    near = terms(from_wi, surface)
-    far = terms(from_wo.reversed(), surface)
-    for k in range(1, longest + 1):
-        value = 0.0
-        for s in range(k):
-            t = k - 1 - s
-            v, below = to_side(start) if s == 0 else _onwards(from_wi, s - 1)
-            o, o_below = to_side(end) if t == 0 else _onwards(from_wo, t - 1)
-            m = v if surface.material.smooth else sample(v, surface, rng)
-            middle = Path(v[None], o[None], m[None], below[None], (below ^ o_below)[None])
-            whole = Terms.joined(near[:s], terms(middle, surface), far[longest - t :])
-            value = value + _combined(whole)
-        yield value
+@dataclass(frozen=True)
+class _Walks:
+    """Walks from one ``end``, ``(n, 3)``: their vertices, and these' terms in that order."""
+
+    end: np.ndarray
+    path: Path
+    forward: Terms
+    backward: Terms
+
+    @classmethod
+    def start(
+        cls, end: np.ndarray, surface: Surface, vertices: int, rng: np.random.Generator
+    ) -> "_Walks":
+        """Draw ``vertices`` of each walk."""
+        path = random_paths(end, surface, vertices, rng)
+        return cls(end, path, terms(path, surface), terms(path.reversed(), surface)[::-1])
+
+    def after(self, vertices: int) -> tuple[np.ndarray, np.ndarray]:
+        """Where the next vertex receives the walks from after so many, and on which side."""
+        if vertices == 0:
+            return to_side(self.end)
+        last = vertices - 1
+        return -self.path.o[last], self.path.below[last] ^ self.path.crossed[last]
 
 
-def _onwards(path: Path, last: int) -> tuple[np.ndarray, np.ndarray]:
-    """Where the vertex after ``last`` receives the paths from, and on which side."""
-    return -path.o[last], path.below[last] ^ path.crossed[last]
+def _value(
+    k: int, near: _Walks, far: _Walks, surface: Surface, rng: np.random.Generator
+) -> np.ndarray:
+    """Estimates of bounce ``k`` from one pair of walks each, ``(n, C)``."""
+    value = 0.0
+    for s in range(k):
+        t = k - 1 - s
+        (v, below), (o, o_below) = near.after(s), far.after(t)
+        m = v if surface.material.smooth else sample(v, surface, rng)
+        joint = Path(v[None], o[None], m[None], below[None], (below ^ o_below)[None])
+        rest = far.backward[:t][::-1]
+        value = value + _combined(Terms.joined(near.forward[:s], terms(joint, surface), rest))
+    return value
 
 
 def _combined(whole: Terms) -> np.ndarray:

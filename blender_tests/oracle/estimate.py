@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .checks import count, generator
 from .surface import Surface
 from .vectors import outside
-from .walk import ROULETTE, Vertex, bounces, connection, first_bounce
+from .walk import ROULETTE, Vertex, bounces, connection, first_bounce, pairs
 
 _BATCH = 1 << 15  # walks advanced together: their arrays fit the cache
 
@@ -41,7 +42,8 @@ class Bounces:
 @dataclass(frozen=True)
 class Energies:
     """Energies per bounce: E_r, reflected to the side that the light came from; E_t, transmitted to
-    the other one; and both together."""
+    the other one; and both together. What is still inside may go either way: ``remaining`` is
+    known for both together, and nan in the parts of a surface that transmits."""
 
     reflected: Bounces
     transmitted: Bounces
@@ -68,25 +70,27 @@ def energies(
     """
     wi = outside(wi, "wi", surface.material.transmits)
     flat = wi.reshape(-1, 3)
-    rng = np.random.default_rng(rng)
+    rng = generator(rng)
     start_below = flat[:, 2] < 0.0
     kept = [Moments(max_bounces, flat.shape[0], walks, surface) for _ in range(3)]
     reflected, transmitted, both = kept
-    for pairs, count in batches(flat.shape[0], walks):
+    for rows, each in batches(flat.shape[0], walks):
         for moments in kept:
-            moments.start(pairs, count)
-        start = np.repeat(flat[pairs], count, axis=0)
+            moments.start(rows, each)
+        start = np.repeat(flat[rows], each, axis=0)
         for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
             leaving = step.leaving
             both.add(k, step.walk, leaving)
             if surface.material.transmits:
-                through = step.below_after ^ start_below[pairs][step.walk // count]
+                through = step.below_after ^ start_below[rows][step.walk // each]
                 reflected.add(k, step.walk, np.where(through[:, None], 0.0, leaving))
                 transmitted.add(k, step.walk, np.where(through[:, None], leaving, 0.0))
         for moments in kept:
             moments.finish(step if k == max_bounces - 1 else None)
-    if not surface.material.transmits:
-        reflected = both
+    if surface.material.transmits:
+        reflected.remaining[:] = transmitted.remaining[:] = np.nan
+    else:
+        reflected, transmitted.remaining[:] = both, 0.0
     return Energies(*(one.result(wi.shape[:-1]) for one in (reflected, transmitted, both)))
 
 
@@ -106,18 +110,17 @@ def evaluate(
     a dielectric, radiance takes another factor (materials.py). Other arguments and errors as in
     `energies`; ``ValueError`` also for a dielectric of IOR 1.
     """
-    transmits = surface.material.transmits
-    wi, wo = np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
+    wi, wo = pairs(wi, wo, surface)
     flat, target = wi.reshape(-1, 3), wo.reshape(-1, 3)
-    rng = np.random.default_rng(rng)
+    rng = generator(rng)
     moments = Moments(max_bounces, flat.shape[0], walks, surface)
     exact = surface.material.smooth
-    for pairs, count in batches(flat.shape[0], walks):
-        moments.start(pairs, count)
-        start = np.repeat(flat[pairs], count, axis=0)
+    for rows, each in batches(flat.shape[0], walks):
+        moments.start(rows, each)
+        start = np.repeat(flat[rows], each, axis=0)
         for k, step in enumerate(bounces(start, surface, max_bounces, rng, roulette)):
             if k > 0 or not exact:
-                pair = pairs.start + step.walk // count
+                pair = rows.start + step.walk // each
                 moments.add(k, step.walk, connection(step, target[pair], surface))
         moments.finish(step if k == max_bounces - 1 else None)
     if exact:
@@ -144,13 +147,13 @@ def lobe(
     if wi.shape != (3,):
         raise ValueError(f"wi has shape {wi.shape}; a lobe belongs to one direction, shape (3,)")
     target = wo.reshape(-1, 3)
-    rng = np.random.default_rng(rng)
+    rng = generator(rng)
     moments = Moments(max_bounces, target.shape[0], walks, surface)
     exact = surface.material.smooth
-    for _, count in batches(1, walks):
-        steps = list(bounces(np.broadcast_to(wi, (count, 3)), surface, max_bounces, rng, roulette))
+    for _, each in batches(1, walks):
+        steps = list(bounces(np.broadcast_to(wi, (each, 3)), surface, max_bounces, rng, roulette))
         for j, one in enumerate(target):
-            moments.start(slice(j, j + 1), count)
+            moments.start(slice(j, j + 1), each)
             for k, step in enumerate(steps):
                 if k > 0 or not exact:
                     moments.add(k, step.walk, connection(step, one, surface))
@@ -174,11 +177,8 @@ class Moments:
     """Means and variances of the mean per bounce and direction, gathered batch by batch."""
 
     def __init__(self, max_bounces: int, directions: int, walks: int, surface: Surface) -> None:
-        if max_bounces < 1:
-            raise ValueError(f"max_bounces is {max_bounces}; give 1 or more")
-        if walks < 2:
-            raise ValueError(f"walks is {walks}; give 2 or more, so that the variance is defined")
-        self.walks = walks
+        max_bounces = count(max_bounces, "max_bounces", 1)
+        self.walks = count(walks, "walks", 2)  # of one alone there is no variance
         self.channels = surface.material.channels
         self.mean = np.zeros((max_bounces, directions, self.channels))
         self.square = np.zeros_like(self.mean)

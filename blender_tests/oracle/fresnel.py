@@ -88,7 +88,8 @@ class IndexOfRefraction:
 
 
 def dielectric_reflectance(cos_theta: np.ndarray, eta: np.ndarray | float) -> np.ndarray:
-    """Unpolarised reflectance ``(...)`` of an interface of real relative index ``eta`` > 0.
+    """Unpolarised reflectance ``(...)`` of an interface of real relative index ``eta`` > 0:
+    Fresnel's equations (Born, Wolf, Principles of Optics, section 1.5.2).
 
     ``cos_theta`` ``(...)`` is the cosine of incidence in 0..1; ``eta`` the index beyond the
     interface over that on this side. 1 beyond the critical angle. With g = eta cos(theta_t), so
@@ -109,7 +110,10 @@ def dielectric_reflectance(cos_theta: np.ndarray, eta: np.ndarray | float) -> np
 
 def rgb(values: Sequence[float], name: str, highest: float) -> np.ndarray:
     """``values`` as an array ``(3,)``; ``ValueError`` unless in 0..``highest`` and finite."""
-    colour = np.asarray(values, dtype=np.float64)
+    try:
+        colour = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"{name} is {values!r}; give three numbers") from error
     legal = (colour >= 0.0) & (colour <= highest) & np.isfinite(colour)
     if colour.shape != (3,) or not np.all(legal):
         limits = "from 0 to 1" if highest == 1.0 else "of 0 or more"

@@ -19,6 +19,7 @@ from scipy.special import betaln, digamma
 
 from .ndf import sigma
 from .surface import CORRELATED, UNCORRELATED, Surface
+from .vectors import unit_vectors
 
 
 class ExitOdds(NamedTuple):
@@ -29,31 +30,40 @@ class ExitOdds(NamedTuple):
 
 
 def G1(w: np.ndarray, surface: Surface) -> np.ndarray:
-    """Spherical distant masking (eq. 3), ``(...)``; exceeds 1 below the horizon. ``w.z`` != 0."""
-    w = np.asarray(w, dtype=np.float64)
-    return np.abs(w[..., 2]) / sigma(w, surface)
+    """Spherical distant masking (eq. 3), ``(...)``; exceeds 1 below the horizon, and is infinite
+    where no facet is visible from ``w``. ``ValueError`` for what is no unit vector."""
+    w = unit_vectors(w, "w")
+    area = sigma(w, surface)
+    seen = area > 0.0
+    return np.where(seen, np.abs(w[..., 2]) / np.where(seen, area, 1.0), np.inf)
 
 
 def G2(v: np.ndarray, o: np.ndarray, surface: Surface) -> np.ndarray:
     """Height-correlated masking and shadowing of a last bounce (eqs. 12-13), ``(...)``.
 
-    ``v`` on either side of the horizon; 0 where ``o.z <= 0``.
+    ``v`` on either side of the horizon; 0 where ``o.z <= 0``. Infinite where neither v nor -o sees
+    a facet. ``ValueError`` for what is no unit vector.
     """
-    v, o = np.asarray(v, dtype=np.float64), np.asarray(o, dtype=np.float64)
+    v, o = unit_vectors(v, "v"), unit_vectors(o, "o")
     cos_v, cos_o = np.abs(v[..., 2]), np.maximum(o[..., 2], 0.0)
-    # not G1 p_exit, which is infinity times 0 where no facet is visible from v, and this is not
-    return cos_v * cos_o / (sigma(v, surface) * cos_o + sigma(-o, surface) * cos_v)
+    # not G1 p_exit, which is infinity times 0 where no facet is visible from v alone
+    both = sigma(v, surface) * cos_o + sigma(-o, surface) * cos_v
+    seen = both > 0.0
+    unseen = np.where(cos_v * cos_o > 0.0, np.inf, 0.0)
+    return np.where(seen, cos_v * cos_o / np.where(seen, both, 1.0), unseen)
 
 
 def G2_middle(v: np.ndarray, o: np.ndarray, surface: Surface) -> np.ndarray:
-    """Height-correlated chance to arrive from ``v`` and be blocked towards ``o`` (eq. 17)."""
-    area_v, area_back = sigma(v, surface), sigma(-np.asarray(o), surface)
-    return G1(v, surface) * _correlated(v, area_v, o, area_back).p_stay
+    """Height-correlated chance to arrive from ``v`` and be blocked towards ``o`` (eqs. 14, 16-17),
+    ``(...)``. ``ValueError`` for what is no unit vector."""
+    v, o = unit_vectors(v, "v"), unit_vectors(o, "o")
+    return G1(v, surface) * _correlated(v, sigma(v, surface), o, sigma(-o, surface)).p_stay
 
 
 def exit_probability(v: np.ndarray, o: np.ndarray, surface: Surface) -> np.ndarray:
-    """Height-correlated p_exit (eqs. 12, 14, 16-17) of a reflected path, shape ``(...)``."""
-    v, o = np.asarray(v, dtype=np.float64), np.asarray(o, dtype=np.float64)
+    """Height-correlated p_exit (eqs. 12, 14, 16-17) of a reflected path, shape ``(...)``.
+    ``ValueError`` for what is no unit vector."""
+    v, o = unit_vectors(v, "v"), unit_vectors(o, "o")
     return _correlated(v, sigma(v, surface), o, sigma(-o, surface)).p_exit
 
 

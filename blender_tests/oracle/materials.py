@@ -8,14 +8,16 @@ and a facet's normal has the same components, ``m.z > 0``. ``o`` belongs to the 
 is on afterwards: where ``o.z > 0`` it may leave the surface on that side.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple
 
 import numpy as np
 
+from .checks import LARGEST, SMALLEST, number
 from .fresnel import Fresnel, White, dielectric_reflectance, rgb
-from .vectors import dot, half_vector, normalize, vector
+from .vectors import dot, half_vector, mirrored, normalize, vector
 
 
 class Scattered(NamedTuple):
@@ -41,8 +43,7 @@ class Turn(NamedTuple):
     choice: np.ndarray
 
 
-@runtime_checkable
-class Material(Protocol):
+class Material(ABC):
     """What facets do. ``channels`` is 3 (red, green, blue), or 1 where channels are equal;
     ``transmits`` tells whether light may cross the surface; ``smooth`` whether v and o determine
     the facet's normal."""
@@ -51,12 +52,14 @@ class Material(Protocol):
     transmits: bool
     smooth: bool
 
+    @abstractmethod
     def scatter(
         self, v: np.ndarray, m: np.ndarray, below: np.ndarray, rng: np.random.Generator
     ) -> Scattered:
         """Draw where paths from ``v`` ``(n, 3)``, on the side ``below`` ``(n,)``, go at facets
         ``m`` ``(n, 3)``, <v,m> > 0."""
 
+    @abstractmethod
     def turn(
         self,
         v: np.ndarray,
@@ -68,14 +71,25 @@ class Material(Protocol):
     ) -> Turn:
         """The vertex term; ``m`` matters only where facets are not smooth. Arguments broadcast."""
 
+    def at_facet(self, o: np.ndarray, m: np.ndarray, crossed: np.ndarray) -> np.ndarray:
+        """Weighted density of turning to ``o`` at the facet ``m``, per steradian, ``(..., C)``;
+        ``TypeError`` where facets are smooth, and go one way alone."""
+        raise TypeError(f"{self} has smooth facets, which have no density")
+
 
 @dataclass(frozen=True)
-class Conductor:
+class Conductor(Material):
     """Mirrors: o = 2 <v,m> m - v, with the factor F(<v,m>)."""
 
     fresnel: Fresnel = field(default_factory=White)
     transmits = False
     smooth = True
+
+    def __post_init__(self) -> None:
+        if not callable(self.fresnel):
+            raise TypeError(
+                f"fresnel is {self.fresnel!r}; give White, F82Tint, IndexOfRefraction or a function"
+            )
 
     @property
     def channels(self) -> int:
@@ -87,9 +101,7 @@ class Conductor:
     ) -> Scattered:
         """Reflect."""
         cosine = np.maximum(dot(v, m), 0.0)
-        return Scattered(
-            2.0 * cosine[:, None] * m - v, np.zeros(cosine.shape, bool), self.fresnel(cosine)
-        )
+        return Scattered(mirrored(v, m, cosine), np.zeros(cosine.shape, bool), self.fresnel(cosine))
 
     def turn(
         self,
@@ -100,7 +112,8 @@ class Conductor:
         crossed: np.ndarray,
         D: Callable[[np.ndarray], np.ndarray],
     ) -> Turn:
-        """<v,h> D(h) / (4 <v,h>), h midway between v and o."""
+        """D(h) / 4 = <v,h> D(h) / (4 <v,h>), h midway between v and o (Walter et al. 2007, eqs.
+        13-14)."""
         h = half_vector(v, o)
         weight = self.fresnel(np.maximum(dot(v, h), 0.0))
         density = np.where(crossed, 0.0, 0.25 * D(h))
@@ -108,10 +121,10 @@ class Conductor:
 
 
 @dataclass(frozen=True)
-class Dielectric:
+class Dielectric(Material):
     """Glass: reflected with the chance F(<v,m>), else refracted; nothing is absorbed.
 
-    ``ior``: index of refraction below the surface over that above it, finite and > 0; else
+    ``ior``: index of refraction below the surface over that above it, 1e-8 to 1e8; else
     ``ValueError``. The densities are those of energy: radiance that crosses from index n1 to n2
     takes another (n2/n1)^2.
     """
@@ -122,8 +135,7 @@ class Dielectric:
     channels = 1
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.ior) and self.ior > 0.0):
-            raise ValueError(f"ior is {self.ior}; give a finite ratio greater than 0")
+        number(self.ior, "ior", SMALLEST, LARGEST, "ratio")
 
     def eta(self, below: np.ndarray) -> np.ndarray:
         """Index beyond the surface over that on the path's side, ``(...)``."""
@@ -136,7 +148,7 @@ class Dielectric:
         eta = self.eta(below)
         cosine = np.clip(dot(v, m), 0.0, 1.0)
         crossed = rng.random(cosine.size) >= dielectric_reflectance(cosine, eta)
-        reflected = 2.0 * cosine[:, None] * m - v
+        reflected = mirrored(v, m, cosine)
         # Snell: in the frame of the other side o = v/eta + (cos_t - cos_i/eta) m
         cos_t = np.sqrt(np.maximum(1.0 - (1.0 - cosine * cosine) / (eta * eta), 0.0))
         refracted = v / eta[:, None] + (cos_t - cosine / eta)[:, None] * m
@@ -171,7 +183,7 @@ class Dielectric:
 
 
 @dataclass(frozen=True)
-class Diffuse:
+class Diffuse(Material):
     """Matte facets: o is cosine-distributed about m, with the factor ``albedo``.
 
     ``albedo``: three numbers in 0..1, else ``ValueError``.
@@ -209,7 +221,7 @@ class Diffuse:
         crossed: np.ndarray,
         D: Callable[[np.ndarray], np.ndarray],
     ) -> Turn:
-        """<v,m> D(m) <o,m> / pi."""
+        """<v,m> D(m) <o,m> / pi (Heitz, Dupuy 2015, the integrand over facets)."""
         density = np.maximum(dot(v, m), 0.0) * D(m) * self._cosine(o, m, crossed)
         weight = np.broadcast_to(self._weight, (*density.shape, self.channels))
         return Turn(density, weight, np.ones_like(density))

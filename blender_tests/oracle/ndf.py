@@ -15,7 +15,9 @@ from .vectors import dot, unit_vectors
 def D(m: np.ndarray, surface: Surface) -> np.ndarray:
     """Density of micronormals ``m`` ``(..., 3)`` per steradian and unit of macrosurface, ``(...)``.
 
-    0 where ``m.z <= 0``. Its integral weighted with ``m.z`` is 1.
+    0 where ``m.z <= 0``. Its integral weighted with ``m.z`` is 1. Walter et al. 2007, eqs. 25
+    (Beckmann) and 33 (GGX), stretched along x and y. ``m`` is not checked, nor is ``w`` below: the
+    walk calls both for every vertex.
     """
     m = np.asarray(m, dtype=np.float64)
     z = np.maximum(m[..., 2], 0.0)
@@ -23,7 +25,7 @@ def D(m: np.ndarray, surface: Surface) -> np.ndarray:
     norm = np.pi * surface.alpha_x * surface.alpha_y
     if surface.distribution == GGX:
         quad = slope2 + z * z
-        return np.where(z > 0.0, 1.0 / (norm * np.where(quad > 0.0, quad, 1.0) ** 2), 0.0)
+        return np.where(z > 0.0, 1.0 / (norm * np.where(quad == 0.0, 1.0, quad) ** 2), 0.0)
     # exp(-slope2/z^2) underflows long before z^4 does, so a floor on z only avoids 0/0
     z2 = np.maximum(z, 1e-30) ** 2
     return np.where(z > 0.0, np.exp(-np.minimum(slope2 / z2, 750.0)) / (norm * z2 * z2), 0.0)
@@ -32,8 +34,9 @@ def D(m: np.ndarray, surface: Surface) -> np.ndarray:
 def sigma(w: np.ndarray, surface: Surface) -> np.ndarray:
     """Projected area of micronormals facing ``w``: integral of <w,m> D(m) dm, shape ``(...)``.
 
-    Equals ``(1 + Lambda(w)) w.z`` (eqs. 1-3), >= 0 on the whole sphere. Above the horizon it is
-    ``w.z + sigma(-w)``, so only the part below the horizon needs a formula without cancellation.
+    The denominator of eq. 4. Equals ``(1 + Lambda(w)) w.z`` (eqs. 1-3), >= 0 on the whole sphere.
+    Above the horizon it is ``w.z + sigma(-w)``, so only the part below the horizon needs a formula
+    without cancellation.
     """
     w = np.asarray(w, dtype=np.float64)
     z = w[..., 2]
@@ -50,8 +53,9 @@ def sigma(w: np.ndarray, surface: Surface) -> np.ndarray:
 
 
 def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:
-    """Smith's Lambda for ``w.z != 0`` on either side of the horizon (eq. 2): sigma(w)/w.z - 1."""
-    w = np.asarray(w, dtype=np.float64)
+    """Smith's Lambda for ``w.z != 0`` on either side of the horizon (eq. 2): sigma(w)/w.z - 1.
+    ``ValueError`` for what is no unit vector."""
+    w = unit_vectors(w, "w")
     upper = w[..., 2] > 0.0
     facing = np.where(upper, 1.0, -1.0)[..., None] * w
     above = sigma(-facing, surface) / facing[..., 2]
@@ -61,10 +65,10 @@ def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:
 def Dvis(v: np.ndarray, m: np.ndarray, surface: Surface) -> np.ndarray:
     """Density per steradian of the micronormals ``m`` that ``v`` sees: <v,m> D(m) / sigma(v).
 
-    ``v`` may lie below the horizon. Raises ``ValueError`` when ``v`` is not a unit vector or sees
-    no micronormal that double precision can tell from none (sigma(v) = 0).
+    ``v`` may lie below the horizon. Raises ``ValueError`` for what is no unit vector, and where v
+    sees no micronormal that double precision can tell from none (sigma(v) = 0).
     """
-    v = unit_vectors(v, "v")
+    v, m = unit_vectors(v, "v"), unit_vectors(m, "m")
     area = sigma(v, surface)
     if np.any(area == 0.0):
         raise ValueError(f"v contains {v[area == 0.0][0]}, from which no micronormal is visible")

@@ -7,8 +7,13 @@ a product of one term a vertex (section 2 of the supplement: vertex terms times 
 
     f = 1/sigma(wi) * product over i < k of V_i p_stay_i / sigma(-o_i) * V_k p_exit_k
 
-V_i is the vertex term (`Material.turn`), and p_stay_i / sigma(-o_i) is the segment term between
-vertices i and i + 1 without its cosine. Logarithms keep the products of many densities finite.
+V_i is the vertex term (`Material.turn`). With |d_i.z| for the cosine of the direction d_i = o_i
+between vertices i and i + 1, p_stay_i / sigma(-o_i) is e_i p_i / |d_i.z|, where
+
+    uncorrelated   e_i p_i = (1 - G1(d_i)) G1(-d_i), and G1(-d_i) for d_i downwards   eqs. 18-24
+    correlated     1/sigma(wi) ... p_exit multiply up to G2(i<k)(v_i, o_i) ... G2(i=k)  eqs. 25-26
+
+Logarithms keep the products of many densities finite.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -121,6 +126,9 @@ def random_paths(start: np.ndarray, surface: Surface, count: int, rng: np.random
         o, crossed, _ = surface.material.scatter(v, m, below, rng)
         rows.append((v, o, m, below, crossed))
         v, below = -o, below ^ crossed
+    if not rows:
+        none = v[None][:0]
+        return Path(none, none, none, below[None][:0], below[None][:0])
     return Path(*(np.stack(column) for column in zip(*rows, strict=True)))
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .checks import LARGEST, SMALLEST, number
 from .fresnel import Fresnel, White
 from .materials import Conductor, Material
 
@@ -21,10 +22,10 @@ MODELS = (CORRELATED, UNCORRELATED, HEIGHT_TRACKED)
 class Surface:
     """A rough surface.
 
-    ``alpha_x``, ``alpha_y``: widths of the NDF along x and y, finite and > 0. ``distribution``:
+    ``alpha_x``, ``alpha_y``: widths of the NDF along x and y, 1e-8 to 1e8. ``distribution``:
     ``GGX`` or ``BECKMANN``. ``material``: what its facets are made of, by default a lossless
     conductor. ``model``: ``CORRELATED``, ``UNCORRELATED`` or ``HEIGHT_TRACKED``.
-    Raises ``ValueError`` for any other value.
+    Raises ``ValueError`` for any other value and ``TypeError`` for widths that are no numbers.
     """
 
     alpha_x: float
@@ -35,9 +36,7 @@ class Surface:
 
     def __post_init__(self) -> None:
         for name in ("alpha_x", "alpha_y"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0.0):
-                raise ValueError(f"{name} is {value}; give a finite width greater than 0")
+            number(getattr(self, name), name, SMALLEST, LARGEST, "width")
         if self.distribution not in (GGX, BECKMANN):
             raise ValueError(f"distribution is {self.distribution!r}; give {GGX!r} or {BECKMANN!r}")
         if not isinstance(self.material, Material):
@@ -56,11 +55,9 @@ class Surface:
         fresnel: Fresnel | None = None,
     ) -> "Surface":
         """The surface of Cycles' Metallic BSDF: ``alpha = roughness^2``, spread by the aspect
-        ``sqrt(1 - 0.9 anisotropy)`` and limited to 1. Both arguments lie in 0..1, roughness above
-        0."""
-        for name, value in (("roughness", roughness), ("anisotropy", anisotropy)):
-            if not 0.0 <= value <= 1.0:
-                raise ValueError(f"{name} is {value}; give a number from 0 to 1")
+        ``sqrt(1 - 0.9 anisotropy)`` and limited to 1. Roughness is 1e-4 to 1, anisotropy 0 to 1."""
+        number(roughness, "roughness", np.sqrt(SMALLEST), 1.0, "number")
+        number(anisotropy, "anisotropy", 0.0, 1.0, "number")
         aspect = np.sqrt(1.0 - 0.9 * anisotropy)
         alpha = roughness * roughness
         alpha_x, alpha_y = float(min(alpha / aspect, 1.0)), float(alpha * aspect)

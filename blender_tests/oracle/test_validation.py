@@ -2,16 +2,30 @@
 """Input errors, the half vector's edges, and what the oracle may import."""
 
 import ast
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Surface, energies, evaluate, first_bounce, lobe
+from blender_tests.oracle import (
+    Conductor,
+    Dielectric,
+    Diffuse,
+    Surface,
+    energies,
+    evaluate,
+    first_bounce,
+    lobe,
+)
+from blender_tests.oracle.masking import G1, G2
+from blender_tests.oracle.ndf import Dvis
 from blender_tests.oracle.vectors import direction, half_vector
 
 UP = direction(0.3)
 WHITE = Surface(0.5, 0.5)
+GLASS = Surface(0.5, 0.5, material=Dielectric(1.5))
+EDGE = np.array([1.0, 0.0, 0.0])
 
 
 @pytest.mark.parametrize(
@@ -20,6 +34,24 @@ WHITE = Surface(0.5, 0.5)
         (lambda: Surface(0.0, 0.5), "alpha_x is 0.0"),
         (lambda: Surface(0.5, np.nan), "alpha_y is nan"),
         (lambda: Surface(0.5, 0.5, "PHONG"), "distribution is 'PHONG'"),
+        (lambda: Surface(0.5, 1e9), "alpha_y is 1000000000.0; give a width from 1e-08 to 1e"),
+        (lambda: Surface(0.5, 0.5, model="NONE"), "model is 'NONE'"),
+        (lambda: Surface(0.5, 0.5, material=Conductor), "material is <class"),
+        (lambda: Surface(0.5, 0.5, material=None), "material is None"),
+        (lambda: Dielectric(0.0), "ior is 0.0"),
+        (lambda: Dielectric(np.nan), "ior is nan"),
+        (lambda: Diffuse((0.5, 1.5, 0.0)), "albedo is"),
+        (lambda: Surface.from_roughness(0.0), "roughness is 0.0"),
+        (lambda: energies(UP, WHITE, roulette=np.nan), "roulette is nan"),
+        (lambda: energies(UP, WHITE, roulette=-1.0), "roulette is -1.0"),
+        (lambda: energies(UP, WHITE, rng=-1), "rng is -1"),
+        (lambda: energies(-UP, WHITE), "wi contains .*not above the surface"),
+        (lambda: energies(EDGE, GLASS), "wi contains .*in the surface"),
+        (lambda: evaluate(UP, EDGE, GLASS), "wo contains .*in the surface"),
+        (lambda: first_bounce(UP, UP, Surface(0.5, 0.5, material=Diffuse())), "no closed first"),
+        (lambda: G1(2.0 * UP, WHITE), "w contains .*not a unit vector"),
+        (lambda: G2(UP, [0.0, 0.0, 2.0], WHITE), "o contains .*not a unit vector"),
+        (lambda: Dvis(UP, [0.0, 1.0], WHITE), r"m has shape \(2,\)"),
         (lambda: Surface.from_roughness(1.5), "roughness is 1.5"),
         (lambda: Surface.from_roughness(0.5, -0.1), "anisotropy is -0.1"),
         (lambda: energies(np.array([0.0, 0.0, 2.0]), WHITE), "wi contains .*not a unit vector"),
@@ -38,6 +70,24 @@ def test_bad_input_is_named(call, message):
         call()
 
 
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: Surface("0.5", 0.5), "alpha_x is '0.5'; give a number"),
+        (lambda: Surface([0.5], 0.5), "alpha_x is "),
+        (lambda: Dielectric("1.5"), "ior is '1.5'"),
+        (lambda: Diffuse("white"), "albedo is 'white'"),
+        (lambda: Conductor("gold"), "fresnel is 'gold'"),
+        (lambda: energies(UP, WHITE, walks=np.nan), "walks is nan; give a whole number"),
+        (lambda: energies(UP, WHITE, max_bounces=2.0), "max_bounces is 2.0"),
+        (lambda: energies(UP, WHITE, roulette=None), "roulette is None"),
+    ],
+)
+def test_bad_types_are_named(call, message):
+    with pytest.raises(TypeError, match=re.escape(message)):
+        call()
+
+
 def test_roughness_follows_the_metallic_bsdf():
     # roughness 0.6, anisotropy 0.9: alpha 0.36, aspect sqrt(0.19)
     surface = Surface.from_roughness(0.6, 0.9)
@@ -53,9 +103,9 @@ def test_half_vector_of_opposite_directions_is_zero():
 
 def test_the_oracle_imports_nothing_of_what_it_judges():
     allowed = {
-        "argparse", "ast", "collections", "dataclasses", "hashlib", "json", "math", "pathlib",
-        "functools", "statistics", "sys", "time", "typing", "numpy", "scipy", "embreex", "pytest",
-        "tqdm", "OpenImageIO", "blender_tests",
+        "abc", "argparse", "ast", "collections", "dataclasses", "decimal", "functools", "hashlib",
+        "json", "math", "numbers", "pathlib", "re", "statistics", "sys", "time", "typing", "weakref",
+        "numpy", "scipy", "embreex", "pytest", "tqdm", "OpenImageIO", "blender_tests",
     }  # fmt: skip
     files = sorted(Path(__file__).parent.glob("*.py"))
     assert len(files) > 10

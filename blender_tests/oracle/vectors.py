@@ -68,6 +68,16 @@ def outside(w: np.ndarray, name: str, transmits: bool = False) -> np.ndarray:
     return w
 
 
+def mirrored(v: np.ndarray, m: np.ndarray, cosine: np.ndarray) -> np.ndarray:
+    """2 <v,m> m - v, ``(n, 3)``, with ``cosine`` = <v,m> ``(n,)``."""
+    return 2.0 * cosine[:, None] * m - v
+
+
+def to_common(w: np.ndarray, below: np.ndarray) -> np.ndarray:
+    """Directions ``(n, 3)`` of the frame of the side ``below`` ``(n,)`` in the common frame."""
+    return np.where(below[:, None], -w, w)
+
+
 def to_side(w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Directions ``(..., 3)`` in the frame of the side they point to, and whether it is ``below``.
 

@@ -16,10 +16,11 @@ from functools import partial
 
 import numpy as np
 
+from .checks import count, number
 from .masking import exit_odds, first_height, height_from_below, next_height
 from .ndf import D, sigma
 from .surface import CORRELATED, HEIGHT_TRACKED, Surface
-from .vectors import outside, to_side
+from .vectors import outside, to_common, to_side
 from .visible import sample
 
 ROULETTE = 0.05  # paths lighter than this survive with probability weight / ROULETTE
@@ -67,7 +68,7 @@ class Vertex:
     @property
     def direction(self) -> np.ndarray:
         """Direction of travel after the bounce in the common frame, ``(n, 3)``."""
-        return np.where(self.below_after[:, None], -self.o, self.o)
+        return to_common(self.o, self.below_after)
 
 
 def bounces(
@@ -78,14 +79,19 @@ def bounces(
     roulette: float = ROULETTE,
 ) -> Iterator[Vertex]:
     """Walk from each of ``wi`` ``(n, 3)``, on either side of a surface that transmits; yields
-    bounce 1, 2, ... until ``max_bounces``, or until no walk is alive. ``roulette`` 0 ends only
-    walks whose weight is 0."""
-    v, below = to_side(wi)
+    bounce 1, 2, ... until ``max_bounces``, or until no walk is alive.
+
+    ``roulette``, 0 to 1: 0 ends only walks whose weight is 0. Raises ``ValueError`` for directions
+    that are not unit vectors above the surface (either side of it where it transmits), and for
+    counts and numbers out of range.
+    """
+    number(roulette, "roulette", 0.0, 1.0, "weight")
+    v, below = to_side(outside(wi, "wi", surface.material.transmits))
     walk = np.arange(v.shape[0])
     area = sigma(v, surface)
     weight = np.ones((v.shape[0], 1))
     log_u = first_height(v, area, rng) if surface.model == HEIGHT_TRACKED else None
-    for _ in range(max_bounces):
+    for _ in range(count(max_bounces, "max_bounces", 1)):
         m = sample(v, surface, rng)
         o, crossed, factor = surface.material.scatter(v, m, below, rng)
         back = -o
@@ -159,13 +165,18 @@ def first_bounce(wi: np.ndarray, wo: np.ndarray, surface: Surface) -> np.ndarray
     """
     if not surface.material.smooth:
         raise ValueError(f"{surface.material} has no closed first bounce; use evaluate")
-    transmits = surface.material.transmits
-    wi, wo = np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
+    wi, wo = pairs(wi, wo, surface)
     (v, below), (o, wo_below) = to_side(wi), to_side(wo)
     if surface.model == HEIGHT_TRACKED:
         surface = replace(surface, model=CORRELATED)
     value = turn_and_leave(v, o, surface, below, below ^ wo_below)
     return np.broadcast_to(value, (*value.shape[:-1], 3)).copy()
+
+
+def pairs(wi: np.ndarray, wo: np.ndarray, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    """``wi`` and ``wo`` broadcast to one shape ``(..., 3)``, each checked as in `first_bounce`."""
+    transmits = surface.material.transmits
+    return np.broadcast_arrays(outside(wi, "wi", transmits), outside(wo, "wo", transmits))
 
 
 def _height_after(log_u: np.ndarray | None, crossed: np.ndarray) -> np.ndarray | None:
