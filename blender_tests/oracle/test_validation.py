@@ -104,7 +104,8 @@ def test_half_vector_of_opposite_directions_is_zero():
 def test_the_oracle_imports_nothing_of_what_it_judges():
     allowed = {
         "abc", "argparse", "ast", "collections", "dataclasses", "decimal", "functools", "hashlib",
-        "json", "math", "numbers", "pathlib", "re", "statistics", "sys", "time", "typing", "weakref",
+        "json", "math", "numbers", "pathlib", "re", "statistics", "sys", "time", "typing",
+        "weakref",
         "numpy", "scipy", "embreex", "pytest", "tqdm", "OpenImageIO", "blender_tests",
     }  # fmt: skip
     files = sorted(Path(__file__).parent.glob("*.py"))
