@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
+from .checks import count, generator
 from .surface import BECKMANN, Surface
 
 
@@ -24,7 +25,7 @@ from .surface import BECKMANN, Surface
 class SlopeStatistics:
     """Moments of the slopes dz/dx and dz/dy over the facets of a sheet, all of which have the same
     projected area. ``mean``, ``variance`` and ``kurtosis`` (3 for a Gaussian) are of shape
-    ``(2,)``."""
+    ``(2,)``. Kurtosis along an axis of constant slope, and the correlation with it, are nan."""
 
     mean: np.ndarray
     variance: np.ndarray
@@ -40,15 +41,20 @@ class HeightField:
     counts even. ``spacing``: (dx, dy), in the unit of the heights. Each cell of the grid is two
     facets, and the diagonal that parts them alternates like the colours of a chessboard: facets on
     one diagonal alone would have correlated slopes along x and y.
-    Raises ``ValueError`` for other shapes, heights that are not finite and spacings not above 0.
+    Raises ``ValueError`` for other shapes, heights that are not finite and spacings not above 0,
+    and ``TypeError`` for heights that are no real numbers.
     """
 
     heights: np.ndarray
     spacing: tuple[float, float]
 
     def __post_init__(self) -> None:
-        shape = np.shape(self.heights)
-        if len(shape) != 2 or min(shape) < 2 or any(count % 2 for count in shape):
+        heights = np.asarray(self.heights)
+        if heights.dtype.kind not in "iuf":
+            raise TypeError(f"heights are of type {heights.dtype}; give real numbers")
+        object.__setattr__(self, "heights", heights.astype(np.float64))
+        shape = heights.shape
+        if len(shape) != 2 or min(shape) < 2 or any(side % 2 for side in shape):
             raise ValueError(f"heights have shape {shape}; give two even counts")
         if not np.all(np.isfinite(self.heights)):
             raise ValueError("heights contain a number that is not finite; give finite ones")
@@ -70,15 +76,16 @@ class HeightField:
         0.001 in energies of single bounces at alpha 1. The side is ``cells / resolution``
         correlation lengths, at least 4; one sheet's slope variance has a relative standard
         deviation of about 1.5 / that. ``rng`` a Generator or a seed; the same seed gives the same
-        heights for every alpha.
+        heights for every alpha. Raises ``ValueError`` for values out of range, and ``TypeError``
+        for ``cells`` that is no whole number.
         """
         if surface.distribution != BECKMANN:
             raise ValueError(
                 f"distribution is {surface.distribution!r}; a Gaussian field has {BECKMANN!r}"
             )
-        if resolution < 2.0:
+        if not 2.0 <= resolution < np.inf:
             raise ValueError(f"resolution is {resolution}; give 2 or more samples")
-        if cells % 2 or cells < 4.0 * resolution:
+        if count(cells, "cells", 2) % 2 or cells < 4.0 * resolution:
             raise ValueError(f"cells is {cells}; give an even number of {4.0 * resolution} or more")
         angle = 2.0 * np.pi * fft.fftfreq(cells)
         # root of the spectrum, which is the transform of the autocorrelation
@@ -88,7 +95,7 @@ class HeightField:
         power = root[:, None] ** 2 * root**2
         power[0, 0] = 0.0
         rho = (power * np.cos(angle)).sum() / power.sum()
-        noise = np.random.default_rng(rng).standard_normal((cells, cells))
+        noise = generator(rng).standard_normal((cells, cells))
         heights = fft.irfft2(fft.rfft2(noise) * amplitude, s=noise.shape)
         heights /= np.sqrt(power.mean())
         width = float(2.0 * np.sqrt(1.0 - rho))
@@ -139,9 +146,12 @@ class HeightField:
         centred = slopes - mean
         squares = centred * centred
         variance = squares.mean(axis=0)
-        correlation = centred.prod(axis=1).mean() / np.sqrt(variance.prod())
+        square = variance**2
+        # 0/0 where the slope is constant
+        square[square == 0.0] = np.nan
+        correlation = centred.prod(axis=1).mean() / np.sqrt(np.sqrt(square.prod()))
         return SlopeStatistics(
-            mean, variance, float(correlation), (squares * squares).mean(axis=0) / variance**2
+            mean, variance, float(correlation), (squares * squares).mean(axis=0) / square
         )
 
     def autocorrelation(self, lags: Sequence[tuple[int, int]]) -> np.ndarray:

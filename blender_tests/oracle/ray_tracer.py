@@ -33,9 +33,11 @@ class Arrival(NamedTuple):
 
 
 class Tracer:
-    """A height field in Embree."""
+    """A height field in Embree; ``TypeError`` for anything but a `HeightField`."""
 
     def __init__(self, field: HeightField) -> None:
+        if not isinstance(field, HeightField):
+            raise TypeError(f"field is a {type(field).__name__}; give a HeightField")
         vertices, facets = field.mesh()
         slopes = field.facet_slopes().reshape(-1, 2)
         corner = vertices[facets[:, 0]]

@@ -10,13 +10,16 @@ from the opposite one. Rays that the tracer loses are dropped and counted (ray_t
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from weakref import WeakSet
 
 import numpy as np
 
+from .checks import count, generator
 from .estimate import Bounces, Energies
+from .height_field import HeightField
 from .materials import Material
 from .ray_tracer import Tracer
-from .vectors import outside, to_side
+from .vectors import outside, to_common, to_side
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class Hit:
     @property
     def direction(self) -> np.ndarray:
         """Direction of travel after the bounce, in the common frame, ``(n, 3)``."""
-        return _common(self.o, self.below_after)
+        return to_common(self.o, self.below_after)
 
     @property
     def leaving(self) -> np.ndarray:
@@ -80,15 +83,16 @@ def simulate(
     transmits, below; yields bounce 1, 2, ... until ``max_bounces``, or until no ray is left.
 
     ``rng`` a Generator or a seed. Raises ``ValueError`` for a direction that is not such a unit
-    vector, and for counts that are too small.
+    vector, and for counts that are too small; ``TypeError`` for counts that are no whole numbers,
+    and for anything but a `Tracer`.
     """
+    if not isinstance(tracer, Tracer):
+        raise TypeError(f"tracer is a {type(tracer).__name__}; give a Tracer of a HeightField")
     wi = outside(wi, "wi", material.transmits)
     if wi.shape != (3,):
         raise ValueError(f"wi has shape {wi.shape}; a simulation has one direction, shape (3,)")
-    for name, value in (("max_bounces", max_bounces), ("rays", rays)):
-        if value < 1:
-            raise ValueError(f"{name} is {value}; give 1 or more")
-    return _simulate(tracer, wi, material, max_bounces, rays, np.random.default_rng(rng))
+    max_bounces, rays = count(max_bounces, "max_bounces", 1), count(rays, "rays", 1)
+    return _simulate(tracer, wi, material, max_bounces, rays, generator(rng))
 
 
 def _simulate(
@@ -102,7 +106,7 @@ def _simulate(
     v, below = to_side(np.broadcast_to(wi, (rays, 3)))
     walk = np.arange(rays)
     weight = np.ones((rays, material.channels))
-    there = tracer.follow(tracer.start(rays, wi[2] < 0.0, rng), _common(-v, below), below)
+    there = tracer.follow(tracer.start(rays, wi[2] < 0.0, rng), to_common(-v, below), below)
     dropped = int(there.lost.sum())
     for _ in range(max_bounces):
         on = np.flatnonzero(~(there.left | there.lost))
@@ -114,7 +118,7 @@ def _simulate(
         o, crossed, factor = material.scatter(v, m, below, rng)
         weight = weight * factor
         after = below ^ crossed
-        there = tracer.follow(tracer.off(point, after), _common(o, after), after)
+        there = tracer.follow(tracer.off(point, after), to_common(o, after), after)
         dropped += int(there.lost.sum())
         yield Hit(walk, v, below, m, o, crossed, weight, there.left, there.lost, dropped)
         v, below = -o, after
@@ -132,17 +136,21 @@ def simulated_energies(
 
     ``tracers``: of at least two independent fields of one kind; of a generator, one at a time is
     held. ``rays`` per field and direction. Variances come from the scatter of the fields, which
-    limits the accuracy more than the number of rays. Errors as in `simulate`.
+    limits the accuracy more than the number of rays. Errors as in `simulate`; ``ValueError`` also
+    for no direction at all, and for a tracer that is given twice.
     """
-    wi = np.asarray(wi, dtype=np.float64)
-    rng = np.random.default_rng(rng)
+    wi = outside(wi, "wi", material.transmits)
+    if wi.size == 0:
+        raise ValueError(f"wi has shape {wi.shape}; give one direction or more")
+    max_bounces, rays = count(max_bounces, "max_bounces", 1), count(rays, "rays", 1)
+    rng = generator(rng)
     runs = [
         _shares(tracer, one, material, max_bounces, rays, rng)
-        for tracer in tracers
+        for tracer in _distinct(tracers)
         for one in wi.reshape(-1, 3)
     ]
     directions = wi.shape[:-1]
-    fields = len(runs) // max(1, math.prod(directions))
+    fields = len(runs) // math.prod(directions)
     if fields < 2:
         raise ValueError(f"tracers has {fields}; give 2 or more, to see how they scatter")
     leaving, remaining, lost = (
@@ -153,17 +161,36 @@ def simulated_energies(
     def variance(values: np.ndarray) -> np.ndarray:
         return values.var(axis=0, ddof=1) / fields
 
-    def over_fields(values: np.ndarray) -> Bounces:
+    def over_fields(values: np.ndarray, inside: np.ndarray) -> Bounces:
         return Bounces(
             np.moveaxis(values.mean(axis=0), -2, 0),
             np.moveaxis(variance(values), -2, 0),
             variance(values.sum(axis=-2)),
-            remaining.mean(axis=0),
+            inside,
         )
 
     reflected, transmitted = leaving[..., 0, :, :], leaving[..., 1, :, :]
-    each = (reflected, transmitted, reflected + transmitted)
-    return SimulatedEnergies(*map(over_fields, each), lost.mean(axis=0))
+    inside = remaining.mean(axis=0)
+    unknown = np.full_like(inside, np.nan)
+    return SimulatedEnergies(
+        over_fields(reflected, unknown if material.transmits else inside),
+        over_fields(transmitted, unknown if material.transmits else np.zeros_like(inside)),
+        over_fields(reflected + transmitted, inside),
+        lost.mean(axis=0),
+    )
+
+
+def _distinct(tracers: Iterable[Tracer]) -> Iterator[Tracer]:
+    """The tracers, one at a time; ``ValueError`` for one that has been before."""
+    if isinstance(tracers, Tracer | HeightField):
+        raise TypeError(f"tracers is a {type(tracers).__name__}; give 2 Tracers or more")
+    before: WeakSet[Tracer] = WeakSet()  # which does not keep them
+    for number, tracer in enumerate(tracers):
+        if isinstance(tracer, Tracer):  # `simulate` names what is not
+            if tracer in before:
+                raise ValueError(f"tracers has one twice, number {number}; give independent fields")
+            before.add(tracer)
+        yield tracer
 
 
 def _shares(
@@ -184,8 +211,3 @@ def _shares(
         remaining[:] = hit.staying.sum(axis=0) / rays
         dropped = hit.dropped
     return leaving, remaining, dropped / rays
-
-
-def _common(w: np.ndarray, below: np.ndarray) -> np.ndarray:
-    """Directions ``(n, 3)`` of the frame of the side ``below`` ``(n,)`` in the common frame."""
-    return np.where(below[:, None], -w, w)

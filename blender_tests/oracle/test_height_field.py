@@ -144,6 +144,24 @@ def test_mesh_has_the_slopes_of_the_facets():
     np.testing.assert_array_equal(z[:, 0], z[:, -1])
 
 
+def test_lists_of_whole_numbers_are_heights():
+    field = HeightField([[0, 1], [0, 0]], [1, 2])
+    assert field.heights.dtype == np.float64
+    np.testing.assert_array_equal(field.facet_slopes()[0, 0], [[0.0, 0.0], [-1.0, 0.5]])
+    assert field.slope_statistics().variance.shape == (2,)
+
+
+def test_a_constant_slope_has_no_higher_moments():
+    flat = HeightField(np.full((4, 4), 0.1), (1.0, 1.0)).slope_statistics()
+    np.testing.assert_array_equal(flat.variance, 0.0)
+    assert np.all(np.isnan([flat.correlation, *flat.kurtosis]))
+    waves = np.repeat([[0.0], [1.0], [0.0], [-1.0]], 4, axis=1)
+    found = HeightField(waves, (1.0, 1.0)).slope_statistics()
+    np.testing.assert_array_equal(found.variance, [1.0, 0.0])
+    assert np.isnan(found.correlation)
+    np.testing.assert_array_equal(found.kurtosis, [1.0, np.nan])
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -155,8 +173,20 @@ def test_mesh_has_the_slopes_of_the_facets():
         (lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 9, 2.0), "cells is 9"),
         (lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 40, 12.0), "cells is 40"),
         (lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 64, 1.5), "resolution is 1.5"),
+        (
+            lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 64, np.nan),
+            "is nan; give 2",
+        ),
+        (
+            lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 64, np.inf),
+            "is inf; give 2",
+        ),
+        (lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 64.0, 8.0), "cells is 64.0"),
+        (lambda: HeightField.gaussian(Surface(1.0, 1.0, BECKMANN), 64, 8.0, -1), "rng is -1"),
+        (lambda: HeightField(np.zeros((4, 4), complex), (1.0, 1.0)), "type complex128"),
+        (lambda: HeightField([["a", "b"], ["c", "d"]], (1.0, 1.0)), "type <U1"),
     ],
 )
 def test_bad_input_is_named(call, message):
-    with pytest.raises(ValueError, match=message):
+    with pytest.raises((ValueError, TypeError), match=message):
         call()

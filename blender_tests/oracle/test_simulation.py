@@ -170,8 +170,33 @@ def test_the_same_seed_gives_the_same_rays():
         (lambda t: simulate(t, direction(1.0), Conductor(), 4, 0), "rays is 0"),
         (lambda t: simulated_energies([t], direction(1.0), Conductor()), "tracers has 1"),
         (lambda t: simulated_energies([], direction(1.0), Conductor()), "tracers has 0"),
+        (lambda t: simulated_energies([t, t], direction(1.0), Conductor()), "one twice, number 1"),
+        (lambda t: simulated_energies([], np.zeros((0, 3)), Conductor()), r"wi has shape \(0, 3\)"),
+        (lambda t: simulated_energies([], None, Conductor()), r"wi has shape \(\)"),
+        (lambda t: simulated_energies([], direction(2.0), Conductor()), "not above the surface"),
+        (lambda t: simulated_energies([], direction(1.0), Conductor(), 4, 0), "rays is 0"),
     ],
 )
-def test_bad_input_is_named(call, message):
+def test_bad_values_are_named(call, message):
     with pytest.raises(ValueError, match=message):
+        call(tracer((1.0, 1.0)))
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda t: simulate(t, direction(1.0), Conductor(), 4, 100.0), "rays is 100.0"),
+        (lambda t: simulate(t, direction(1.0), Conductor(), 4.0), "max_bounces is 4.0"),
+        (lambda t: simulate(field((1.0, 1.0)), direction(1.0), Conductor()), "a HeightField; give"),
+        (lambda t: simulated_energies(t, direction(1.0), Conductor()), "tracers is a Tracer"),
+        (
+            lambda t: simulated_energies([field((1.0, 1.0)), t], direction(1.0), Conductor()),
+            "tracer is a HeightField; give a Tracer",
+        ),
+        (lambda t: simulated_energies([], direction(1.0), Conductor(), 4, 1e3), "rays is 1000.0"),
+        (lambda t: Tracer(np.zeros((4, 4))), "field is a ndarray; give a HeightField"),
+    ],
+)
+def test_wrong_types_are_named(call, message):
+    with pytest.raises(TypeError, match=message):
         call(tracer((1.0, 1.0)))
