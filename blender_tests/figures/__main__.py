@@ -10,7 +10,7 @@ from pathlib import Path
 
 from . import draw, draw_curves, draw_lobes, tables
 from .cache import ROOT, results, write
-from .cases import FULL, MASKING, NUMBERS, QUICK, RECIPROCITY, Effort, name, tasks, whole
+from .cases import FULL, MASKING, NUMBERS, QUICK, RECIPROCITY, Effort, name, settled, tasks, whole
 from .findings import Findings, to_simulated, to_tracked
 from .report import report
 
@@ -44,6 +44,8 @@ def summary(found: Findings, effort: Effort) -> dict[str, str]:
         "distances_to_simulated.csv": tables.distances(to_simulated(found)),
         "distances_to_height_tracked.csv": tables.distances(to_tracked(found)),
         "ggx_energies.csv": tables.ggx_energies(found.ggx),
+        "estimators.csv": tables.estimators(found),
+        "estimators_settled.csv": tables.settled(found),
     }
 
 
@@ -83,9 +85,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     effort = QUICK if options.quick else FULL
     numbers = options.only or NUMBERS
     try:
-        computed = results(
-            tasks(numbers, effort), options.cache, options.jobs, options.force, sys.stderr.isatty()
-        )
+        how = options.cache, options.jobs, options.force, sys.stderr.isatty()
+        computed = results(tasks(numbers, effort), *how)
+        if whole(numbers):
+            computed |= results(settled(computed, effort).values(), *how)
     except KeyboardInterrupt:
         print(f"\nInterrupted. What is done is kept in {options.cache}", file=sys.stderr)
         return 130

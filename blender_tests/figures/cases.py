@@ -2,7 +2,9 @@
 """What the figures show, and the tasks that their data take."""
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from blender_tests.oracle.materials import Conductor, Dielectric, Diffuse, Material
 from blender_tests.oracle.surface import (
@@ -14,8 +16,9 @@ from blender_tests.oracle.surface import (
     Surface,
 )
 
-from .cache import Task
-from .estimators import Estimators
+from .cache import Result, Task
+from .estimators import Estimators, Settled
+from .gains import FAR, z_scores
 from .masking_curves import MaskingCurve
 from .reciprocity import Reciprocity
 from .traced import RESOLUTION, Traced
@@ -44,7 +47,7 @@ class Effort:
     """How much is computed: ``walks`` on each model; ``sheets``, in groups of ``group`` (even), and
     ``rays`` on each, of ``cells`` squared; ``fine`` sheets of twice the resolution, an even number;
     ``pairs`` of directions, in chunks, and walks for each; ``angles`` of a masking curve; pairs and
-    walks of ``estimates`` that are made in two ways."""
+    walks of ``estimates`` that are made in two ways, and walks each way that ``settle`` a pair."""
 
     walks: int
     sheets: int
@@ -57,6 +60,7 @@ class Effort:
     pair_walks: int
     angles: int
     estimates: tuple[int, int]
+    settle: tuple[int, int]
 
 
 FULL = Effort(
@@ -71,6 +75,7 @@ FULL = Effort(
     pair_walks=8192,
     angles=180,
     estimates=(64, 8192),
+    settle=(3_000_000, 40_000),
 )
 QUICK = Effort(
     walks=1 << 12,
@@ -84,6 +89,7 @@ QUICK = Effort(
     pair_walks=256,
     angles=36,
     estimates=(8, 64),
+    settle=(512, 64),
 )
 
 
@@ -112,7 +118,7 @@ LOBE_FIGURES = tuple(
     for i, material in enumerate(MATERIALS)
     for j, alpha in enumerate(ALPHAS)
 )
-FINER = next(one for one in LOBE_FIGURES if one.number == 11)
+CHECKED = tuple(one for one in LOBE_FIGURES if one.number in (11, 15))  # of one alpha
 NUMBERS = (MASKING, *(figure.number for figure in LOBE_FIGURES), RECIPROCITY)
 
 MASKING_SURFACES = tuple(
@@ -159,12 +165,21 @@ def traced(alpha: Alpha, effort: Effort) -> list[Traced]:
 
 
 def finer(effort: Effort) -> list[Traced]:
-    """The tasks that tell how much the width of the facets matters: `FINER` on finer sheets."""
-    materials, cells = (MATERIALS[FINER.material],), 2 * effort.cells
-    return [
-        Traced(FINER.alpha, materials, THETAS, pair, effort.rays, cells, 2.0 * RESOLUTION)
-        for pair in zip(range(0, effort.fine, 2), range(1, effort.fine, 2), strict=True)
-    ]
+    """The tasks that tell how much the width of the facets matters: `CHECKED` on finer sheets."""
+    finest = replace(_checked(effort)[0], cells=2 * effort.cells, resolution=2.0 * RESOLUTION)
+    pairs = zip(range(0, effort.fine, 2), range(1, effort.fine, 2), strict=True)
+    return [replace(finest, sheets=pair) for pair in pairs]
+
+
+def unstretched(effort: Effort) -> list[Traced]:
+    """The tasks that tell what the stretching of the sheets changes: `CHECKED` without it."""
+    return [replace(task, stretched=False) for task in _checked(effort)]
+
+
+def _checked(effort: Effort) -> list[Traced]:
+    """The tasks of the simulated columns of `CHECKED` alone."""
+    materials = tuple(MATERIALS[figure.material] for figure in CHECKED)
+    return [replace(task, materials=materials) for task in traced(CHECKED[0].alpha, effort)]
 
 
 def masking_curves(effort: Effort) -> list[MaskingCurve]:
@@ -204,6 +219,18 @@ def estimators(effort: Effort) -> dict[tuple[str, str, Alpha], Estimators]:
     }
 
 
+def settled(
+    found: dict[Task, Result], effort: Effort
+) -> dict[tuple[tuple[str, str, Alpha], int], Settled]:
+    """The tasks that follow from what `estimators` ``found``, by case and number of the pair: the
+    pairs whose two values are far apart."""
+    return {
+        (case, int(pair)): Settled(task, int(pair), *effort.settle)
+        for case, task in estimators(effort).items()
+        for pair in np.flatnonzero(np.abs(z_scores(found[task])) > FAR)
+    }
+
+
 def whole(numbers: Collection[int]) -> bool:
     """Whether these are all figures, so that the README belongs to them."""
     return set(numbers) == set(NUMBERS)
@@ -223,5 +250,5 @@ def tasks(numbers: Collection[int], effort: Effort) -> list[Task]:
     if RECIPROCITY in numbers:
         found += [task for model in RECIPROCITY_MODELS for task in reciprocity(model, effort)]
     if whole(numbers):
-        found += [*ggx(effort), *finer(effort), *estimators(effort).values()]
+        found += [*ggx(effort), *finer(effort), *unstretched(effort), *estimators(effort).values()]
     return found

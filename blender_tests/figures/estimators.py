@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the bidirectional estimator gains over the one-way walk, for random pairs of directions."""
+"""Values of the BSDF by the one-way walk and by the bidirectional estimator, for random pairs of
+directions."""
 
 from dataclasses import dataclass
 
@@ -35,35 +36,46 @@ class Estimators:
         return wi, wo
 
     def run(self, seed: int) -> dict[str, np.ndarray]:
-        """``mean`` and ``variance`` of the mean of bounces 2 to `MAX_BOUNCES`, by the walk and by
-        the bidirectional estimator, ``(2, MAX_BOUNCES - 1, pairs)``."""
-        wi, wo = self.directions()
-        rng = np.random.default_rng(seed)
-        one_way = estimate.evaluate(wi, wo, self.surface, MAX_BOUNCES, self.walks, rng, roulette=0)
-        both_ways = bidirectional.evaluate(wi, wo, self.surface, MAX_BOUNCES, self.walks, rng)
-        found = one_way, both_ways
-        return {
-            "mean": np.stack([one.mean[1:, :, 0] for one in found]),
-            "variance": np.stack([one.variance[1:, :, 0] for one in found]),
-        }
+        """What `_both` finds, for all pairs."""
+        return _both(*self.directions(), self.surface, (self.walks, self.walks), seed)
 
 
 @dataclass(frozen=True)
-class Gain:
-    """``ratio`` of the variances of walk and bidirectional estimator at equal numbers of walks,
-    median over the pairs, for bounces 2, 3, ... ``(bounces - 1,)``; ``z`` ``(pairs,)``, the
-    difference of their means over all these bounces in standard errors."""
+class Settled:
+    """Task: the pair of the number ``pair`` among those of ``values`` once more, with as many walks
+    ``one_way``, and pairs of walks ``both_ways``."""
 
-    ratio: np.ndarray
-    z: np.ndarray
+    values: Estimators
+    pair: int
+    one_way: int
+    both_ways: int
 
-    @classmethod
-    def of(cls, found: dict[str, np.ndarray]) -> "Gain":
-        """From the result of an `Estimators` task; pairs without light are left out."""
-        one_way, both_ways = found["variance"]
-        lit = (one_way > 0.0) & (both_ways > 0.0)
-        ratio = np.where(lit, one_way / np.where(lit, both_ways, 1.0), np.nan)
-        mean, variance = found["mean"].sum(axis=1), found["variance"].sum(axis=(0, 1))
-        seen = variance > 0.0
-        z = (mean[0] - mean[1])[seen] / np.sqrt(variance[seen])
-        return cls(np.nanmedian(ratio, axis=1), z)
+    @property
+    def cost(self) -> int:
+        """In walks of about the same time, for the progress bar."""
+        return self.one_way + 10 * self.both_ways
+
+    def directions(self) -> tuple[np.ndarray, np.ndarray]:
+        """wi and wo ``(1, 3)``."""
+        wi, wo = self.values.directions()
+        return wi[self.pair, None], wo[self.pair, None]
+
+    def run(self, seed: int) -> dict[str, np.ndarray]:
+        """What `_both` finds, for one pair."""
+        walks = self.one_way, self.both_ways
+        return _both(*self.directions(), self.values.surface, walks, seed)
+
+
+def _both(
+    wi: np.ndarray, wo: np.ndarray, surface: Surface, walks: tuple[int, int], seed: int
+) -> dict[str, np.ndarray]:
+    """``mean`` and ``variance`` of the mean of bounces 2 to `MAX_BOUNCES`, by the walk and by the
+    bidirectional estimator, ``(2, MAX_BOUNCES - 1, pairs)``."""
+    rng = np.random.default_rng(seed)
+    one_way = estimate.evaluate(wi, wo, surface, MAX_BOUNCES, walks[0], rng, roulette=0)
+    both_ways = bidirectional.evaluate(wi, wo, surface, MAX_BOUNCES, walks[1], rng)
+    found = one_way, both_ways
+    return {
+        "mean": np.stack([one.mean[1:, :, 0] for one in found]),
+        "variance": np.stack([one.variance[1:, :, 0] for one in found]),
+    }

@@ -11,37 +11,53 @@ from blender_tests.oracle.surface import BECKMANN, GGX
 from . import cases
 from .cache import Result, Task
 from .cases import ALPHAS, MATERIALS, MODELS, SIMULATED, THETAS, TRACKED, Alpha, Effort, LobeFigure
-from .estimators import Gain
+from .estimators import Settled
+from .gains import Gain
 from .lobes import Lobes, by_lobe
 from .masking_curves import MaskingCurve
 from .reciprocity import Pairs
 
+Case = tuple[str, str, Alpha]  # model, material and width
 Panels = dict[tuple[str, float], Lobes]  # by column and angle
 
 
 @dataclass(frozen=True)
 class Findings:
     """The data of the figures, by what tells them apart within a figure. To the README belong
-    ``ggx``; ``finer``, the simulated column of `cases.FINER` on finer sheets; and ``gains``, by
-    model, material and width."""
+    ``ggx``; ``finer`` and ``unstretched``, the simulated columns of `cases.CHECKED` on finer sheets
+    and on sheets that are not stretched; ``gains`` by model, material and width, with all their
+    ``estimates``; and ``settled``, by these and the number of the pair."""
 
     masking: dict[MaskingCurve, Result]
     lobes: dict[LobeFigure, Panels]
     pairs: dict[str, Pairs]
     ggx: dict[Alpha, Panels]
-    finer: Panels
-    gains: dict[tuple[str, str, Alpha], Gain]
+    finer: dict[LobeFigure, Panels]
+    unstretched: dict[LobeFigure, Panels]
+    gains: dict[Case, Gain]
+    estimates: dict[Case, Result]
+    settled: dict[tuple[Case, int], tuple[Settled, Result]]
 
     @classmethod
     def sort(
         cls, found: dict[Task, Result], numbers: Collection[int], effort: Effort
     ) -> "Findings":
-        """The data of the figures of these ``numbers``, from the results of `cases.tasks`."""
+        """The data of the figures of these ``numbers``, from the results of `cases.tasks` and, for
+        the README, `cases.settled`."""
         figures = [figure for figure in cases.LOBE_FIGURES if figure.number in numbers]
         curves = cases.masking_curves(effort) if cases.MASKING in numbers else []
         models = cases.RECIPROCITY_MODELS if cases.RECIPROCITY in numbers else ()
-        ggx, finer = (ALPHAS, cases.finer(effort)) if cases.whole(numbers) else ((), [])
-        estimators = cases.estimators(effort) if cases.whole(numbers) else {}
+        page = cases.whole(numbers)
+        checked = cases.CHECKED if page else ()
+        finer, unstretched = (
+            {
+                figure: _traced_panels([found[task] for task in tasks(effort)], material)
+                for material, figure in enumerate(checked)
+            }
+            for tasks in (cases.finer, cases.unstretched)
+        )
+        estimators = cases.estimators(effort) if page else {}
+        settled = cases.settled(found, effort) if page else {}
         return cls(
             {curve: found[curve] for curve in curves},
             {figure: _figure_panels(figure, found, effort) for figure in figures},
@@ -49,9 +65,15 @@ class Findings:
                 model: Pairs.merge({task: found[task] for task in cases.reciprocity(model, effort)})
                 for model in models
             },
-            {alpha: _walked_panels(GGX, "conductor", alpha, found, effort) for alpha in ggx},
-            _traced_panels([found[task] for task in finer], 0) if finer else {},
-            {case: Gain.of(found[task]) for case, task in estimators.items()},
+            {
+                alpha: _walked_panels(GGX, "conductor", alpha, found, effort)
+                for alpha in (ALPHAS if page else ())
+            },
+            finer,
+            unstretched,
+            {case: Gain.of(found[task], task.walks) for case, task in estimators.items()},
+            {case: found[task] for case, task in estimators.items()},
+            {pair: (task, found[task]) for pair, task in settled.items()},
         )
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from .cache import Result
 from .cases import COLUMNS, THETAS, Alpha, LobeFigure
-from .findings import Comparison, Panels
+from .findings import Comparison, Findings, Panels
+from .gains import totals, z_scores
 from .lobes import BOUNCE_NAMES, LOBE_NAMES, Lobes, plane_angles
 from .masking_curves import MaskingCurve
 from .reciprocity import Pairs
@@ -90,6 +91,43 @@ def distances(comparisons: Iterable[Comparison]) -> str:
     )
     header = "distribution", "material", "alpha_x", "alpha_y", "theta", "model", "bounce"
     return _csv((*header, "distance", "noise"), rows)
+
+
+def estimators(found: Findings) -> str:
+    """What the walk and the bidirectional estimator scatter by, for GGX: see `gains.Gain`;
+    empty where unknown."""
+    rows = (
+        (model, material, *alpha, bounce, pairs, *unknown, *map(_known, (*deviation, ratio)))
+        for (model, material, alpha), gain in found.gains.items()
+        for bounce, (pairs, unknown, deviation, ratio) in enumerate(
+            zip(gain.pairs, gain.unknown.T, gain.deviation.T, gain.ratio, strict=True), 2
+        )
+    )
+    header = "model", "material", "alpha_x", "alpha_y", "bounce", "pairs"
+    each = [f"{one}_{of}" for of in ("unknown", "deviation") for one in ("walk", "bidirectional")]
+    return _csv((*header, *each, "variance_ratio"), rows)
+
+
+def settled(found: Findings) -> str:
+    """Pairs of directions whose two values were far apart, for GGX: their angles in radians, z with
+    few walks, and values (bounces 2 to 6) and z with many; bsdf times abs(cos theta_o)."""
+    rows = []
+    for ((model, material, alpha), pair), (task, result) in found.settled.items():
+        angles = [
+            f"{angle:.4f}"
+            for w in task.directions()
+            for angle in (np.arccos(w[0, 2]), np.arctan2(w[0, 1], w[0, 0]))
+        ]
+        values = [f"{one[0]:.4e}" for both in zip(*totals(result), strict=True) for one in both]
+        z = z_scores(found.estimates[model, material, alpha])[pair], z_scores(result)[0]
+        rows.append((model, material, *alpha, *angles, *values, *(f"{one:.2f}" for one in z)))
+    header = "model", "material", "alpha_x", "alpha_y", "theta_i", "phi_i", "theta_o", "phi_o"
+    each = [f"{one}{suffix}" for one in ("walk", "bidirectional") for suffix in ("", "_error")]
+    return _csv((*header, *each, "z", "z_settled"), rows)
+
+
+def _known(value: float) -> str:
+    return f"{value:.4g}" if np.isfinite(value) else ""
 
 
 def _energies(lobes: Lobes) -> Iterator[Sequence[str]]:

@@ -135,6 +135,18 @@ def test_the_simulated_surface_is_as_other_sheets_find_it(number, theta):
     assert np.all(np.abs(apart) < bound)
 
 
+def test_far_pairs_of_the_two_estimators_are_settled():
+    page = (FOLDER / "README.md").read_text(encoding="utf-8")
+    far = rows("estimators_settled.csv")
+    assert f"and by more than 4 in {len(far)} of" in " ".join(page.split())
+    for row in far:
+        walk, other = float(row["walk"]), float(row["bidirectional"])
+        error = np.hypot(float(row["walk_error"]), float(row["bidirectional_error"]))
+        assert abs(float(row["z"])) > 4.0
+        assert abs(walk - other) < 4.0 * error
+        assert float(row["z_settled"]) == pytest.approx((walk - other) / error, abs=0.01)
+
+
 def test_masking_is_as_the_oracle_finds_it():
     for row in rows("fig02.csv")[::37]:
         surface = Surface(float(row["alpha"]), float(row["alpha"]), row["distribution"])

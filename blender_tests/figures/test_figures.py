@@ -27,6 +27,7 @@ def where(output, folder):
 def test_a_quick_run_makes_all_files(quick):
     made, _ = quick
     expected = {"README.md", "ggx_energies.csv", "fig02.csv", "fig17.csv"}
+    expected |= {"estimators.csv", "estimators_settled.csv"}
     expected |= {f"distances_to_{one}.csv" for one in ("simulated", "height_tracked")}
     expected |= {f"fig{number:02}.svg" for number in NUMBERS}
     expected |= {f"fig{n:02}_{kind}.csv" for n in range(5, 17) for kind in ("energies", "lobes")}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How exits are counted, merged and compared."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,6 +18,8 @@ from blender_tests.figures.lobes import (
     incident,
     plane_angles,
 )
+from blender_tests.figures.traced import Traced
+from blender_tests.oracle.materials import Conductor
 from blender_tests.oracle.vectors import direction
 
 
@@ -53,6 +56,17 @@ def test_energies_are_kept_by_bounce_and_side():
     in_lobes = lobes.plane.mean.sum(axis=1) * PLANE_WIDTH
     assert in_lobes == pytest.approx(by_lobe(lobes.energies.mean).sum(axis=1))
     assert lobes.halves.sum(axis=2) == pytest.approx(np.stack([in_lobes, in_lobes]))
+
+
+def test_stretched_sheets_have_the_slopes_of_the_surface():
+    task = Traced((1.0, 0.1), (Conductor(),), (0.0,), (0, 1), 16, 64)
+    plain = replace(task, stretched=False)
+    for number in task.sheets:
+        exact = task.sheet(number).slope_statistics().variance
+        np.testing.assert_allclose(exact, [0.5, 0.005], rtol=1e-12)
+        # one sheet of 8 correlation lengths a side scatters by 1.5 / 8
+        other = plain.sheet(number).slope_statistics().variance / [0.5, 0.005]
+        assert np.all((np.abs(other - 1.0) > 1e-3) & (np.abs(other - 1.0) < 0.75))
 
 
 def test_a_lambertian_surface_draws_half_a_cosine():

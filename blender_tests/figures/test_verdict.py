@@ -4,11 +4,18 @@
 import numpy as np
 import pytest
 
-from blender_tests.figures.cases import ALPHAS, MATERIALS, MODELS, THETAS
-from blender_tests.figures.findings import Comparison
-from blender_tests.figures.lobes import LOBES
+from blender_tests.figures.cases import (
+    ALPHAS,
+    COLUMNS,
+    LOBE_FIGURES,
+    MATERIALS,
+    MODELS,
+    THETAS,
+)
+from blender_tests.figures.findings import Comparison, Findings
+from blender_tests.figures.lobes import BOUNCES, LOBES, Estimate, Lobes
 from blender_tests.figures.markdown import cases, thousandths
-from blender_tests.figures.verdict import OURS, agreement, claim
+from blender_tests.figures.verdict import OURS, agreement, claim, largest
 from blender_tests.oracle.surface import BECKMANN, GGX
 
 
@@ -62,6 +69,34 @@ def test_a_difference_within_the_noise_is_none():
         + compared(OURS, lambda model, theta: 0.01, GGX)
     )
     assert "in 0 of 48, and nearer in 0: none." in " ".join(text.split())
+
+
+def shown(share):
+    """Panels of all figures whose light all goes through, ``share`` of it at the first bounce."""
+    energies = np.zeros((BOUNCES, 2))
+    energies[:2, 1] = share, 1.0 - share
+    one = Lobes(*[Estimate(energies, energies)] * 3, energies, 0.0, 0.0)
+    panels = {(column, theta): one for column in COLUMNS for theta in THETAS}
+    return Findings({}, dict.fromkeys(LOBE_FIGURES, panels), {}, {}, {}, {}, {}, {}, {})
+
+
+def test_the_largest_differences_have_their_numbers():
+    def apart(model, theta):
+        return 0.3 if theta == 1.5 and model == "uncorrelated" else 0.01
+
+    every = compared(MODELS, apart)
+    glass = [one for one in every if one.material == "dielectric"]
+    text = largest(shown(0.25), glass)
+    words = " ".join(text.split())
+    assert "The largest distance is 30.0 % of the light, uncorrelated, dielectric" in words
+    assert "on the simulated surface 75 % of what goes through" in words
+    assert "so what is left is for want of the height" in words
+    assert text.count("| dielectric, ") == len(ALPHAS) * len(COLUMNS)
+    assert "| simulated | 0.000 | 1.000 | 0.250 | 0.750 | 0.000 | 0.000 | 0.000 |  |" in text
+    opaque = [one for one in every if one.material == "diffuse"]
+    assert "all cases in which no light goes through" in largest(shown(0.25), opaque)
+    text = largest(shown(0.25), compared(MODELS, lambda model, theta: 0.02))
+    assert text.endswith("elsewhere in: none.")
 
 
 def test_words_for_cases_and_numbers():

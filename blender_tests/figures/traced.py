@@ -22,7 +22,10 @@ class Traced:
 
     ``alpha`` (alpha_x, alpha_y); ``cells`` and ``resolution`` as in `HeightField.gaussian`. On each
     sheet ``rays`` rays are traced for each of ``materials`` and ``thetas``. A sheet differs with
-    alpha only in its scale, so the errors of all cases have the same sheets in common.
+    alpha only in its scale, so the errors of all cases have the same sheets in common. A
+    ``stretched`` sheet has slopes of just the variances of alpha, which are else those of the mean
+    over all sheets. That takes the scatter of the slopes out of the results; the README says how
+    much it is.
     """
 
     alpha: tuple[float, float]
@@ -32,6 +35,7 @@ class Traced:
     rays: int
     cells: int
     resolution: float = RESOLUTION
+    stretched: bool = True
 
     @property
     def cost(self) -> int:
@@ -39,10 +43,11 @@ class Traced:
         return self.rays * len(self.sheets) * len(self.materials) * len(self.thetas)
 
     def sheet(self, number: int) -> HeightField:
-        """The random sheet of seed ``number``, stretched such that its own slopes have just the
-        variances of alpha, which halves the scatter of the results over sheets."""
+        """The random sheet of seed ``number``."""
         surface = Surface(*self.alpha, BECKMANN)
         field = HeightField.gaussian(surface, self.cells, self.resolution, number)
+        if not self.stretched:
+            return field
         variance = field.slope_statistics().variance
         stretch = np.sqrt(2.0 * variance) / self.alpha
         return replace(field, spacing=tuple(stretch * field.spacing))

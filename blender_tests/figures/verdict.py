@@ -7,11 +7,13 @@ import numpy as np
 
 from blender_tests.oracle.surface import BECKMANN, GGX
 
-from .cases import ALPHAS, MATERIALS, MODELS, SIMULATED, THETAS, TRACKED, alpha_text
+from .cases import ALPHAS, COLUMNS, MATERIALS, MODELS, SIMULATED, THETAS, TRACKED, alpha_text
 from .findings import Comparison, Findings
+from .lobes import LOBE_NAMES, by_lobe
 from .markdown import cases, percent, table
 
 AGREES = 0.02  # a model that sends at most this share of the light elsewhere is said to agree
+FAR = 0.1  # more than this share elsewhere is worth a table
 OURS = ("correlated", "uncorrelated")  # the paper's models
 
 _GRAZING = THETAS[-1]
@@ -47,6 +49,80 @@ Distance from the simulated surface in per cent of the light, mean over the case
 Case by case, {" / ".join(MODELS)}:
 
 {_by_case(comparisons, MODELS)}"""
+
+
+def largest(found: Findings, comparisons: list[Comparison]) -> str:
+    """The cases in which a model is far from the simulated surface, by bounce."""
+    far = list(dict.fromkeys(one.case for one in comparisons if one.apart > FAR))
+    worst = max(comparisons, key=lambda one: one.apart)
+    text = f"""### The largest differences
+
+The largest distance is {percent(worst.apart)} % of the light, {worst.model}, {cases([worst.case])}.
+A model sends more than {100 * FAR:g} % elsewhere in: {cases(far)}."""
+    if not far:
+        return text
+    shown = [one for one in comparisons if one.case in far]
+    rows, late = [], []
+    for case in far:
+        material, alpha, theta = case
+        panels = next(
+            panels
+            for figure, panels in found.lobes.items()
+            if (figure.material, figure.alpha) == (material, alpha)
+        )
+        through = panels[SIMULATED, theta].energies.mean[:, 1]
+        if MATERIALS[material].transmits:
+            late.append(through[1:].sum() / through.sum())
+        apart = {one.model: percent(one.apart) for one in shown if one.case == case}
+        for column in COLUMNS:
+            energies = by_lobe(panels[column, theta].energies.mean)
+            rows.append(
+                (
+                    cases([case]),
+                    column,
+                    f"{energies[:, 0].sum():.3f}",
+                    f"{energies[:, 1].sum():.3f}",
+                    *(f"{one:.3f}" for one in energies[:, 1]),
+                    apart.get(column, ""),
+                )
+            )
+    header = "", "column", "E_r", "E_t", *(f"E_t {k}" for k in LOBE_NAMES), "distance in %"
+    return f"""{text}
+
+{_through([one for one in shown if MATERIALS[one.material].transmits], late)}
+
+{table(header, rows)}"""
+
+
+def _through(shown: list[Comparison], late: list[float]) -> str:
+    """Why light that goes through is shared out differently, by the numbers of these cases.
+    ``late``: of what goes through the simulated surface, the shares after the first bounce."""
+    if not shown:
+        return "They are all cases in which no light goes through."
+
+    def of(model: str, bounce: int) -> str:
+        values = [one.difference[bounce - 1, 1] for one in shown if one.model == model]
+        return " and ".join(f"{value:+.3f}".replace("-", "−") for value in values)
+
+    near = [one for one in shown if one.model == OURS[0]]
+    share = [one.distance[1] / one.distance[:-1].sum() for one in near]
+    tracked = min(one.apart for one in shown if one.model == TRACKED)
+    height = "is not for want of" if tracked > AGREES else "is for want of"
+    return f"""Where light goes through, E_t at the first bounce is off the simulated surface's by
+{of("uncorrelated", 1)} in the uncorrelated model, and at the second by {of("uncorrelated", 2)}.
+Grazing light meets high parts of the surface, and behind them has nearly all its depth still to
+pass: on the simulated surface {_range(late)} % of what goes through meets it once more. The
+uncorrelated model takes the chance to leave as if the light were at any height. The correlated
+model knows that the height is the same on both sides; it is off by {of("correlated", 1)}, and at
+the second bounce by {of("correlated", 2)}, the height-tracked one by {of(TRACKED, 1)} and by
+{of(TRACKED, 2)}, so what is left {height} the height. Of the correlated model's distance, taken
+bounce by bounce, {_range(share)} % is at the second bounce: slopes and heights along its way are
+independent in Smith's theory, and on a continuous surface they are not."""
+
+
+def _range(shares: list[float]) -> str:
+    """Least and largest of some shares in per cent, whole."""
+    return " to ".join(dict.fromkeys(f"{100.0 * one:.0f}" for one in (min(shares), max(shares))))
 
 
 def bounces(found: Findings) -> str:

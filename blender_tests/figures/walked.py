@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from blender_tests.oracle.estimate import batches
 from blender_tests.oracle.surface import Surface
 from blender_tests.oracle.walk import Vertex, bounces
 
 from .lobes import MAX_BOUNCES, Sums, gather, incident
-
-_BATCH = 1 << 15  # walks advanced together: their arrays fit the cache
 
 
 @dataclass(frozen=True)
@@ -30,11 +29,11 @@ class Walked:
     def run(self, seed: int) -> Sums:
         """The exits, gathered in an even number of parts."""
         rng = np.random.default_rng(seed)
-        parts = 2 * max(4, self.walks // (2 * _BATCH))
+        parts = 2 * max(4, len(list(batches(1, self.walks))) // 2)
         wi = np.broadcast_to(incident(self.theta), (self.walks // parts, 3))
 
-        def batches() -> Iterator[Iterator[Vertex]]:
+        def runs() -> Iterator[Iterator[Vertex]]:
             for _ in range(parts):
                 yield bounces(wi, self.surface, MAX_BOUNCES, rng)
 
-        return gather(batches(), len(wi))
+        return gather(runs(), len(wi))
