@@ -5,7 +5,9 @@ import numpy as np
 import pytest
 
 from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface, bidirectional, evaluate
+from blender_tests.oracle.fresnel import dielectric_reflectance
 from blender_tests.oracle.masking import exit_odds
+from blender_tests.oracle.materials import Scattered
 from blender_tests.oracle.ndf import D, sigma
 from blender_tests.oracle.quadrature import gauss_legendre
 from blender_tests.oracle.surface import (
@@ -15,7 +17,7 @@ from blender_tests.oracle.surface import (
     HEIGHT_TRACKED,
     UNCORRELATED,
 )
-from blender_tests.oracle.vectors import direction, half_vector, normalize
+from blender_tests.oracle.vectors import direction, dot, half_vector, normalize
 from blender_tests.oracle.walk import bounces, turn_and_leave
 
 WI = direction(1.2)
@@ -43,8 +45,9 @@ def test_both_estimators_agree(model, distribution, material, wo):
         np.testing.assert_array_equal(one.mean[0], two.mean[0])
         np.testing.assert_array_equal(two.variance[0], 0.0)
     # 4 standard errors, of all bounces together and of those that are known to 10 %
+    total_error = np.sqrt(one.total_variance + two.total_variance)
+    assert np.all(np.abs(one.total - two.total) < 4.0 * total_error)
     error = np.sqrt(one.variance + two.variance)
-    assert np.all(np.abs(one.total - two.total) < 4.0 * np.sqrt((error**2).sum(axis=0)))
     known = error[1:] < 0.1 * two.mean[1:]
     assert known[0].all() or distribution == BECKMANN
     assert np.all((np.abs(one.mean - two.mean) < 4.0 * error)[1:][known])
@@ -57,7 +60,9 @@ def test_bounces_beyond_the_first_vary_less(model, material):
     one = evaluate(WI, wo, surface, 5, 20_000, 1, roulette=0)
     two = bidirectional.evaluate(WI, wo, surface, 5, 20_000, 2)
     gain = one.variance[1:, 0] / two.variance[1:, 0]
-    assert np.all(gain > 1.2)  # measured 1.6 to 10, rising with the bounce
+    # measured 1.6 to 10, rising with the bounce, for these widths and directions; it is less where
+    # lobes are broader
+    assert np.all(gain > 1.2)
 
 
 def second_bounce_by_quadrature(wi, wo, surface, count=800):
@@ -95,28 +100,68 @@ def around(axis, angle, count, rng):
     return local @ np.stack([x, np.cross(axis, x), axis])
 
 
+class Dice:
+    """In place of a Generator: numbers drawn before."""
+
+    def __init__(self, numbers):
+        self.numbers = numbers
+
+    def random(self, size):
+        return self.numbers
+
+
+class EvenDielectric(Dielectric):
+    """The same glass, that reflects half of the paths, and gives them weights instead."""
+
+    def scatter(self, v, m, below, rng):
+        reflects = rng.random(v.shape[0]) < 0.5
+        o, crossed, _ = super().scatter(v, m, below, Dice(np.where(reflects, -1.0, 1.0)))
+        reflectance = dielectric_reflectance(np.clip(dot(v, m), 0.0, 1.0), self.eta(below))
+        weight = 2.0 * np.where(crossed, 1.0 - reflectance, reflectance)
+        return Scattered(o, crossed, weight[:, None])
+
+
 @pytest.mark.parametrize("model", [CORRELATED, UNCORRELATED])
 def test_narrow_peaks_that_the_walk_misses(model):
     """IOR 1.05: light that crosses, is reflected, and crosses back. The walk's connections meet
     its narrow peaks too rarely; counting the walks that leave within a cone settles who is right.
     """
-    surface = Surface(0.3, 0.3, GGX, Dielectric(1.05), model)
-    wo, angle = direction(0.5, 2.0), 0.3
+    wo, angle = direction(0.5, 2.0), 0.4
+    solid_angle = 2.0 * np.pi * (1.0 - np.cos(angle))
     rng = np.random.default_rng(3)
-    batches, walks = 20, 200_000
+    batches, walks = 20, 50_000
+    surface = Surface(0.3, 0.3, GGX, EvenDielectric(1.05), model)
     counts = np.zeros(batches)
     for i in range(batches):
-        for k, step in enumerate(bounces(np.broadcast_to(WI, (walks, 3)), surface, 3, rng, 0.0)):
-            if k == 2:
-                inside = (step.direction @ wo > np.cos(angle)) & ~step.below_after
-                counts[i] = step.leaving[inside, 0].sum() / walks
-    solid_angle = 2.0 * np.pi * (1.0 - np.cos(angle))
+        *_, third = bounces(np.broadcast_to(WI, (walks, 3)), surface, 3, rng, 0.0)
+        inside = (third.direction @ wo > np.cos(angle)) & ~third.below_after
+        counts[i] = third.leaving[inside, 0].sum() / walks
     counted, counted_error = counts.mean(), counts.std(ddof=1) / np.sqrt(batches)
-    values = bidirectional.evaluate(WI, around(wo, angle, 400, rng), surface, 3, 500, 4)
+    surface = Surface(0.3, 0.3, GGX, Dielectric(1.05), model)
+    values = bidirectional.evaluate(WI, around(wo, angle, 4000, rng), surface, 3, 50, 4)
     values = values.mean[2, :, 0] * solid_angle
     error = np.hypot(values.std(ddof=1) / np.sqrt(values.size), counted_error)
-    assert error < 0.1 * counted
+    assert error < 0.02 * counted
     assert abs(values.mean() - counted) < 4.0 * error
+
+
+SETTLED = [
+    (CORRELATED, direction(0.55852, -1.67138), direction(2.44708, 0.25966)),
+    (UNCORRELATED, direction(0.62286, 1.27786), direction(2.03127, 0.29253)),
+]
+
+
+@pytest.mark.parametrize(("model", "wi", "wo"), SETTLED, ids=["correlated", "uncorrelated"])
+def test_pairs_that_the_walk_finds_hard(model, wi, wo):
+    """Glass, bounce 2: of a few thousand walks, hardly any connects with a narrow peak, and their
+    scatter gives an error that is too small. A million and more settle the value."""
+    surface = Surface(0.25, 0.25, GGX, Dielectric(1.5), model)
+    one = evaluate(wi, wo, surface, 2, 3_000_000, 1, roulette=0)
+    two = bidirectional.evaluate(wi, wo, surface, 2, 40_000, 2)
+    one_error, two_error = one.standard_error[1, 0], two.standard_error[1, 0]
+    assert one_error < 0.05 * one.mean[1, 0]
+    assert two_error < 0.02 * two.mean[1, 0]
+    assert abs(one.mean[1, 0] - two.mean[1, 0]) < 4.0 * np.hypot(one_error, two_error)
 
 
 def test_edges():
