@@ -219,7 +219,8 @@ def _settled(found: Findings, effort: Effort) -> str:
     """The differences of the two estimators, and what became of the large ones."""
     z = np.concatenate([z_scores(one) for one in found.estimates.values()])
     text = f"""The two differ by up to {np.abs(z).max():.1f} standard errors in the sum of these
-bounces, and by more than {FAR:g} in {len(found.settled)} of {z.size} pairs."""
+bounces, and by more than {FAR:g} in {len(found.settled)} of {z.size} pairs; the bounces of one walk
+are taken as independent here, which they are not quite."""
     if not found.settled:
         return text
     rows, after, low = [], [], 0

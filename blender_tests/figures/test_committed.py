@@ -144,7 +144,7 @@ def test_far_pairs_of_the_two_estimators_are_settled():
         error = np.hypot(float(row["walk_error"]), float(row["bidirectional_error"]))
         assert abs(float(row["z"])) > 4.0
         assert abs(walk - other) < 4.0 * error
-        assert float(row["z_settled"]) == pytest.approx((walk - other) / error, abs=0.01)
+        assert float(row["z_settled"]) == pytest.approx((walk - other) / error, abs=0.02)
 
 
 def test_masking_is_as_the_oracle_finds_it():
