@@ -6,12 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from blender_tests.oracle.masking import G1
-from blender_tests.oracle.ndf import D
-from blender_tests.oracle.quadrature import visible_normals
+from blender_tests.oracle.quadrature import projected_area
 from blender_tests.oracle.surface import Surface
-from blender_tests.oracle.vectors import direction, dot
-
-NODES = 80  # of the rule along each axis: enough for 12 digits
+from blender_tests.oracle.vectors import direction
 
 
 @dataclass(frozen=True)
@@ -31,12 +28,7 @@ class MaskingCurve:
         where no micronormal is visible that double precision can tell from none."""
         theta = np.pi * (np.arange(self.angles) + 0.5) / self.angles
         w = direction(theta)
-        area = np.array([self._projected_area(one) for one in w])
+        area = np.array([projected_area(one, self.surface) for one in w])
         with np.errstate(divide="ignore", over="ignore"):
             integral = np.abs(w[:, 2]) / area
             return {"theta": theta, "formula": G1(w, self.surface), "integral": integral}
-
-    def _projected_area(self, w: np.ndarray) -> float:
-        """The integral of <w,m> D(m) over the micronormals that face ``w`` ``(3,)``."""
-        m, weight = visible_normals(w, self.surface, NODES)
-        return (weight * np.maximum(dot(m, w), 0.0) * D(m, self.surface)).sum()

@@ -15,8 +15,8 @@ from blender_tests.oracle.masking import (
     height_from_below,
     next_height,
 )
-from blender_tests.oracle.ndf import D, Lambda, sigma
-from blender_tests.oracle.quadrature import heights, visible_normals
+from blender_tests.oracle.ndf import Lambda, sigma
+from blender_tests.oracle.quadrature import heights, projected_area
 from blender_tests.oracle.surface import (
     BECKMANN,
     CORRELATED,
@@ -26,7 +26,7 @@ from blender_tests.oracle.surface import (
     UNCORRELATED,
     Surface,
 )
-from blender_tests.oracle.vectors import direction, dot, normalize, vector
+from blender_tests.oracle.vectors import direction, normalize, vector
 
 ALPHAS = [(0.1, 0.1), (0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
 SURFACES = [Surface(x, y, ndf) for ndf in (GGX, BECKMANN) for x, y in ALPHAS]
@@ -48,12 +48,6 @@ UP = direction(0.0)
 
 def name(surface):
     return f"{surface.distribution}-{surface.alpha_x}-{surface.alpha_y}"
-
-
-def projected_area(w, surface):
-    """Integral of G1local <w,m> D(m), the denominator of eq. 4."""
-    m, weight = visible_normals(w, surface, 80)
-    return (np.maximum(dot(w, m), 0.0) * D(m, surface) * weight).sum()
 
 
 @pytest.mark.parametrize("phi", AZIMUTHS, ids="phi={:.2f}".format)
