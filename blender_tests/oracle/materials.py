@@ -17,7 +17,7 @@ import numpy as np
 
 from .checks import LARGEST, SMALLEST, number
 from .fresnel import Fresnel, White, dielectric_reflectance, rgb
-from .vectors import dot, half_vector, mirrored, normalize, vector
+from .vectors import dot, half_vector, mirrored, normalize, to_common, vector
 
 
 class Scattered(NamedTuple):
@@ -27,6 +27,30 @@ class Scattered(NamedTuple):
     o: np.ndarray
     crossed: np.ndarray
     weight: np.ndarray
+
+
+@dataclass(frozen=True)
+class Bounce:
+    """What ``n`` paths do at a facet. ``walk`` ``(n,)``: which of the paths they are. ``v``
+    ``(n, 3)`` and ``below`` ``(n,)``, the side they are on, on arrival; the facet ``m`` ``(n, 3)``;
+    and afterwards ``o`` ``(n, 3)`` and whether they ``crossed`` ``(n,)``."""
+
+    walk: np.ndarray
+    v: np.ndarray
+    below: np.ndarray
+    m: np.ndarray
+    o: np.ndarray
+    crossed: np.ndarray
+
+    @property
+    def below_after(self) -> np.ndarray:
+        """The side after the bounce, ``(n,)``."""
+        return self.below ^ self.crossed
+
+    @property
+    def direction(self) -> np.ndarray:
+        """Direction of travel after the bounce in the common frame, ``(n, 3)``."""
+        return to_common(self.o, self.below_after)
 
 
 class Turn(NamedTuple):

@@ -17,41 +17,24 @@ import numpy as np
 from .checks import count, generator
 from .estimate import Bounces, Energies
 from .height_field import HeightField
-from .materials import Material
+from .materials import Bounce, Material
 from .ray_tracer import Tracer
 from .vectors import outside, to_common, to_side
 
 
 @dataclass(frozen=True)
-class Hit:
-    """One bounce of the ``n`` rays that met the sheet once more; for the names see `walk.Vertex`.
+class Hit(Bounce):
+    """One bounce of the ``n`` rays that met the sheet once more.
 
-    ``walk`` ``(n,)``: which of the rays they are. ``v``, ``m``, ``o`` ``(n, 3)``, in the frame of
-    the ray's side; ``below`` and ``crossed`` ``(n,)``; ``weight`` ``(n, C)`` after the bounce.
-    ``left``, ``lost`` ``(n,)``: rays that leave now, and rays dropped on their way to the next
-    bounce; all others go on. ``dropped``: number of rays dropped so far, these included.
+    Besides `Bounce`: ``weight`` ``(n, C)`` after the bounce; ``left``, ``lost`` ``(n,)``: rays that
+    leave now, and rays dropped on their way to the next bounce; all others go on. ``dropped``:
+    number of rays dropped so far, these included.
     """
 
-    walk: np.ndarray
-    v: np.ndarray
-    below: np.ndarray
-    m: np.ndarray
-    o: np.ndarray
-    crossed: np.ndarray
     weight: np.ndarray
     left: np.ndarray
     lost: np.ndarray
     dropped: int
-
-    @property
-    def below_after(self) -> np.ndarray:
-        """Whether the ray is under the surface afterwards, ``(n,)``."""
-        return self.below ^ self.crossed
-
-    @property
-    def direction(self) -> np.ndarray:
-        """Direction of travel after the bounce, in the common frame, ``(n, 3)``."""
-        return to_common(self.o, self.below_after)
 
     @property
     def leaving(self) -> np.ndarray:

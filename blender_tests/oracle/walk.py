@@ -18,34 +18,27 @@ import numpy as np
 
 from .checks import count, number
 from .masking import exit_odds, first_height, height_from_below, next_height
+from .materials import Bounce
 from .ndf import D, sigma
 from .surface import CORRELATED, HEIGHT_TRACKED, Surface
-from .vectors import outside, to_common, to_side
+from .vectors import outside, to_side
 from .visible import sample
 
 ROULETTE = 0.05  # paths lighter than this survive with probability weight / ROULETTE
 
 
 @dataclass(frozen=True)
-class Vertex:
+class Vertex(Bounce):
     """One bounce of the ``n`` walks that are still alive.
 
-    ``walk`` ``(n,)``: which of the walks they are. On arrival: ``v`` ``(n, 3)``; ``below``
-    ``(n,)``, the side they are on; ``area`` = sigma(v) ``(n,)``; ``weight`` ``(n, C)``; ``log_u``
-    ``(n,)``, the height (in the height-tracked model, else None). Then: the facet ``m`` ``(n, 3)``;
-    the direction ``o`` ``(n, 3)`` on the side after it; whether they ``crossed`` ``(n,)``; the
-    ``scattered`` weight ``(n, C)``; the chances ``p_exit`` and ``p_stay`` ``(n,)``.
+    Besides `Bounce`, on arrival: ``area`` = sigma(v) ``(n,)``; ``weight`` ``(n, C)``; ``log_u``
+    ``(n,)``, the height (in the height-tracked model, else None). Afterwards: the ``scattered``
+    weight ``(n, C)``; the chances ``p_exit`` and ``p_stay`` ``(n,)``.
     """
 
-    walk: np.ndarray
-    v: np.ndarray
-    below: np.ndarray
     area: np.ndarray
     weight: np.ndarray
     log_u: np.ndarray | None
-    m: np.ndarray
-    o: np.ndarray
-    crossed: np.ndarray
     scattered: np.ndarray
     p_exit: np.ndarray
     p_stay: np.ndarray
@@ -59,16 +52,6 @@ class Vertex:
     def staying(self) -> np.ndarray:
         """Weight that goes on to the next bounce, ``(n, C)``."""
         return self.scattered * self.p_stay[:, None]
-
-    @property
-    def below_after(self) -> np.ndarray:
-        """The side after the bounce, ``(n,)``."""
-        return self.below ^ self.crossed
-
-    @property
-    def direction(self) -> np.ndarray:
-        """Direction of travel after the bounce in the common frame, ``(n, 3)``."""
-        return to_common(self.o, self.below_after)
 
 
 def bounces(
@@ -98,7 +81,7 @@ def bounces(
         area_back = sigma(back, surface)
         after = _height_after(log_u, crossed)
         odds = exit_odds(v, area, o, area_back, crossed, after, surface.model)
-        vertex = Vertex(walk, v, below, area, weight, log_u, m, o, crossed, weight * factor, *odds)
+        vertex = Vertex(walk, v, below, m, o, crossed, area, weight, log_u, weight * factor, *odds)
         yield vertex
         weight = vertex.staying
         chance = weight.max(axis=1) / max(roulette, 1e-300)
