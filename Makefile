@@ -57,7 +57,7 @@ addon: ## Build the extension's zip into dist/ and validate it
 references: ## Render the oracle's reference pictures anew (about ten minutes)
 	@$(any) -m blender_tests.oracle.references
 
-figures: ## Draw the supplement's figures anew (docs/figures; about eight minutes on two cores)
+figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
 	@$(any) -m blender_tests.figures
 
 tables: ## Fit the shaders' tables anew (osl/tables)
