@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reflectance of one microfacet of a conductor.
+// The reflectance of one microfacet.
 #ifndef MICROBOUNCE_FRESNEL_H
 #define MICROBOUNCE_FRESNEL_H
 
@@ -52,6 +52,22 @@ color conductor_fresnel(Conductor metal, float cosine)
 {
   return metal.physical ? n_k_fresnel(metal.first, metal.second, cosine)
                         : f82_tint_fresnel(metal.first, metal.second, cosine);
+}
+
+// Unpolarised reflectance of a dielectric; `eta` is the index beyond the facet over that on the
+// path's side. With g = eta cos(theta_t) Fresnel's differences c - g and eta^2 c - g are multiplied
+// out, which keeps their digits for eta near 1.
+float dielectric_fresnel(float eta, float cosine)
+{
+  float rise = (eta - 1) * (eta + 1);
+  float g2 = rise + cosine * cosine;
+  if (g2 <= 0)
+    return (rise == 0) ? 0 : 1;
+  float g = sqrt(g2), eta2 = eta * eta;
+  float sum_s = cosine + g, sum_p = eta2 * cosine + g;
+  float s = rise / (sum_s * sum_s);
+  float p = rise * ((eta2 + 1) * cosine * cosine - 1) / (sum_p * sum_p);
+  return min(0.5 * (s * s + p * p), 1);
 }
 
 #endif

@@ -3,6 +3,10 @@
 #ifndef MICROBOUNCE_INPUTS_H
 #define MICROBOUNCE_INPUTS_H
 
+#include "closures.h"
+#include "frame.h"
+#include "ndf.h"
+
 // `value` limited to [low, high]; what is not a finite number becomes `fallback`.
 float legal(float value, float low, float high, float fallback)
 {
@@ -35,6 +39,49 @@ vector default_tangent(vector n)
     return cross(n, cross(transform("object", "world", around), n));
   }
   return dPdu;
+}
+
+// The rough surface of Cycles' Metallic BSDF: alpha = roughness^2, spread by the aspect and limited
+// to 1.
+Microsurface microsurface(float roughness, float anisotropy, int distribution, int model)
+{
+  float alpha = legal(roughness, 0, 1, 0.5);
+  alpha *= alpha;
+  float aspect = sqrt(1 - 0.9 * legal(anisotropy, 0, 1, 0));
+  Microsurface surface;
+  surface.alpha_x = min(alpha / aspect, 1);
+  surface.alpha_y = alpha * aspect;
+  surface.beckmann = distribution == 1;
+  surface.model = clamp(model, 0, 2);
+  return surface;
+}
+
+// The local frame: z from `n`, x along the tangent where the surface is anisotropic, else anywhere.
+Frame oriented_frame(Microsurface surface, vector n, vector fallback, vector given, float rotation,
+                     vector view)
+{
+  vector z = visible_normal(direction(n, fallback), view);
+  vector tangent = any_tangent(z);
+  if (surface.alpha_x != surface.alpha_y) {
+    tangent = direction(given, direction(default_tangent(z), tangent));
+    float turns = legal(rotation, -1e3, 1e3, 0);
+    if (turns != 0)
+      tangent = rotate(tangent, turns * M_2PI, point(0), point(z));
+  }
+  return shading_frame(z, tangent);
+}
+
+Accuracy legal_accuracy(int quality, int max_bounces, int only, float tolerance, int walks,
+                        float kernel)
+{
+  Accuracy accuracy;
+  accuracy.quality = clamp(quality, 0, 3);
+  accuracy.max_bounces = clamp(max_bounces, 1, 64);
+  accuracy.only = clamp(only, 0, accuracy.max_bounces);
+  accuracy.tolerance = legal(tolerance, 0, 1, 0.001);
+  accuracy.walks = clamp(walks, 1, 16);
+  accuracy.kernel = legal(kernel, 0.05, 1, 0.3);
+  return accuracy;
 }
 
 #endif

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The normal distribution: GGX or Beckmann, isotropic or anisotropic.
+// The rough surface: its normal distribution, GGX or Beckmann, isotropic or anisotropic, and the
+// model of how the heights of successive bounces depend on one another.
 #ifndef MICROBOUNCE_NDF_H
 #define MICROBOUNCE_NDF_H
+
+#define CORRELATED 0
+#define UNCORRELATED 1
+#define HEIGHT_TRACKED 2
 
 struct Microsurface {
   float alpha_x;
   float alpha_y;
   int beckmann;  // 0 GGX, 1 Beckmann
+  int model;
 };
 
 // The direction as a surface with alpha 1 would see it (not normalised).

@@ -41,14 +41,57 @@ Incidence incidence(Microsurface surface, vector v)
   return arrival;
 }
 
-// The chance that a path sent to `o` leaves without another bounce, for the height-correlated model
-// (eqs. 12, 14, 16 and 17): sigma(v) o.z / (sigma(v) o.z + sigma(-o) |v.z|).
+// Heights are carried as the logarithm of their distribution function u in (0, 1], seen from the
+// path's side of the surface: 0 at the top.
+
+// The same height seen from the other side: log(1 - u).
+float height_from_below(float log_u)
+{
+  return log(max(-expm1(log_u), 1e-37));
+}
+
+// The height where a path from `arrival` meets a surface of which it knows nothing: u has density
+// a u^(a-1) with a = |1 + Lambda(v)| = sigma(v) / |v.z| (eq. 15).
+float height_met(Incidence arrival, float number)
+{
+  return log(max(number, 1e-37)) * abs(arrival.v[2]) / max(arrival.area, 1e-37);
+}
+
+// Where a path that stays, at height `log_u` towards `o`, meets the surface again (Heitz et al.
+// 2016): downwards u U^(1/|Lambda|); upwards u / T^(1/Lambda), T uniform between the chance to
+// escape, u^Lambda, and 1. |Lambda| = sigma(-o) / |o.z|.
+float next_height(Microsurface surface, vector o, float log_u, float number)
+{
+  float depth = abs(o[2]);
+  float back = max(-o[2], 0) + projected_excess(surface, o);
+  float rise;
+  if (o[2] > 0) {
+    float stays = -expm1(log_u * back / depth);
+    rise = -log(max(1 - number * stays, 1e-37));
+  }
+  else
+    rise = log(max(number, 1e-37));
+  return (back > 0) ? min(log_u + rise * depth / back, 0) : log_u;
+}
+
+// The chance that a path at height `log_u` that is sent to `o` leaves: u^Lambda(o).
+float escape_chance(Microsurface surface, vector o, float log_u)
+{
+  return (o[2] > 0) ? exp(log_u * projected_excess(surface, o) / o[2]) : 0;
+}
+
+// The chance that a path reflected to `o` leaves without another bounce; none below the horizon.
+// Height-correlated (eqs. 12, 14, 16 and 17): sigma(v) o.z / (sigma(v) o.z + sigma(-o) |v.z|).
+// Height-uncorrelated (eqs. 3 and 19-24): G1dist(o) = o.z / sigma(o).
 float exit_probability(Microsurface surface, Incidence arrival, vector o)
 {
   if (o[2] <= 0)
     return 0;
+  float excess = projected_excess(surface, o);
+  if (surface.model == UNCORRELATED)
+    return o[2] / (o[2] + excess);
   float leaves = arrival.area * o[2];
-  float stays = projected_excess(surface, o) * abs(arrival.v[2]);
+  float stays = excess * abs(arrival.v[2]);
   return (stays > 0) ? leaves / (leaves + stays) : 1;
 }
 

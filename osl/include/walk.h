@@ -1,44 +1,94 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The position-free random walk inside the microgeometry (Wang et al. 2022).
+// The position-free random walk inside the microgeometry (Wang et al. 2022), and the walk that
+// carries its height (Heitz et al. 2016).
 //
 // A vertex receives the path from `v`, minus its direction of travel, and sends it to `o`. Sampling
-// the visible normals leaves the Fresnel factor as the only weight, and the whole segment term is
+// the visible normals leaves the facet's factor as the only weight, and the whole segment term is
 // the chance to leave: G2(i=k) = G1dist(v) leave, G2(i<k) = G1dist(v) (1 - leave).
 #ifndef MICROBOUNCE_WALK_H
 #define MICROBOUNCE_WALK_H
 
-#include "fresnel.h"
+#include "facet.h"
 #include "ndf.h"
 #include "random.h"
 #include "smith.h"
 #include "visible.h"
 
-struct Vertex {
-  vector o;      // direction in which the path goes on, local frame
-  float cosine;  // between the ray and the micronormal, for the Fresnel factor
-  float leave;   // chance that it leaves the surface in this direction
+// A path on its way to the next vertex, in the frame of its side (facet.h).
+struct Walker {
+  vector v;
+  int below;
+  float log_u;  // height; of the height-tracked model alone
+  color throughput;
 };
 
-Vertex sample_vertex(Microsurface surface, Incidence arrival, vector u)
+struct Vertex {
+  vector m;
+  vector o;      // where the path goes on, in the frame of the side it is on then
+  int crossed;   // whether that is the other side
+  float cosine;  // between the ray and the facet
+  float leave;   // chance that it leaves the surface in this direction
+  float log_u;   // height on the side after
+};
+
+Walker walker_from(Microsurface surface, vector wi, output RandomStream stream)
+{
+  Walker walker;
+  walker.v = wi;
+  walker.below = 0;
+  walker.log_u = 0;
+  if (surface.model == HEIGHT_TRACKED)
+    walker.log_u = height_met(incidence(surface, wi), next_number(stream));
+  walker.throughput = color(1);
+  return walker;
+}
+
+Vertex sample_vertex(Microsurface surface, Facet facet, Incidence arrival, Walker walker, vector u,
+                     output RandomStream stream)
 {
   Vertex vertex;
-  vector m = sample_visible_normal(surface, arrival, u);
-  vertex.cosine = clamp(dot(arrival.v, m), 0, 1);
-  vertex.o = 2 * vertex.cosine * m - arrival.v;
-  vertex.leave = exit_probability(surface, arrival, vertex.o);
+  vector extra = vector(0);
+  if (facet.kind != CONDUCTOR)
+    extra = next_numbers(stream);
+  vertex.m = sample_visible_normal(surface, arrival, u);
+  vertex.cosine = clamp(dot(arrival.v, vertex.m), 0, 1);
+  vertex.o = scattered(facet, arrival.v, vertex.m, walker.below, vertex.cosine, extra[0], extra[1],
+                       vertex.crossed);
+  vertex.log_u = walker.log_u;
+  if (vertex.crossed && surface.model == CORRELATED)
+    vertex.log_u = height_met(arrival, extra[2]);
+  if (vertex.crossed && surface.model != UNCORRELATED)
+    vertex.log_u = height_from_below(vertex.log_u);
+  if (surface.model == HEIGHT_TRACKED || (vertex.crossed && surface.model == CORRELATED))
+    vertex.leave = escape_chance(surface, vertex.o, vertex.log_u);
+  else
+    vertex.leave = exit_probability(surface, arrival, vertex.o);
   return vertex;
+}
+
+// The path after a vertex that it does not leave from.
+Walker stayed(Microsurface surface, Walker walker, Vertex vertex, output RandomStream stream)
+{
+  Walker next = walker;
+  next.v = -vertex.o;
+  next.below = walker.below != vertex.crossed;
+  if (surface.model == HEIGHT_TRACKED)
+    next.log_u = next_height(surface, vertex.o, vertex.log_u, next_number(stream));
+  return next;
 }
 
 // One of `candidates` vertices, chosen in proportion to the energy that it keeps inside, with the
 // mean of that energy in `kept`: walks are spent where the light is.
-Vertex sample_kept_vertex(Microsurface surface, Incidence arrival, vector shift, int first,
-                          int candidates, output RandomStream stream, output float kept)
+Vertex sample_kept_vertex(Microsurface surface, Facet facet, Incidence arrival, Walker walker,
+                          vector shift, int first, int candidates, output RandomStream stream,
+                          output float kept)
 {
   Vertex chosen;
   kept = 0;
   float threshold = next_number(stream);
   for (int i = first; i < first + candidates; ++i) {
-    Vertex vertex = sample_vertex(surface, arrival, lattice_point(i, shift));
+    Vertex vertex =
+        sample_vertex(surface, facet, arrival, walker, lattice_point(i, shift), stream);
     float inside = 1 - vertex.leave;
     if (inside <= 0)
       continue;
@@ -55,28 +105,34 @@ Vertex sample_kept_vertex(Microsurface surface, Incidence arrival, vector shift,
   return chosen;
 }
 
-// Follows a path that has made `bounces` bounces and is received from `v` until it leaves, and
-// returns its direction; `throughput` is multiplied by the Fresnel factors on the way. At
+// Follows a path that has made `bounces` bounces until it leaves; returns its direction in the
+// frame of the side it leaves on, `walker.below`, with its weight in `walker.throughput`. At
 // `max_bounces` only the part that leaves counts; a path that stays with less than `tolerance` is
-// lost (throughput 0).
-vector walk_to_exit(Microsurface surface, Conductor metal, vector v, int bounces, int max_bounces,
-                    float tolerance, output RandomStream stream, output color throughput)
+// lost (throughput 0). With `only` k > 0 the weight is what leaves at bounce k.
+vector walk_to_exit(Microsurface surface, Facet facet, int bounces, int max_bounces, int only,
+                    float tolerance, output RandomStream stream, output Walker walker)
 {
-  vector from = v;
-  for (int bounce = bounces + 1; bounce <= max_bounces; ++bounce) {
-    Vertex vertex = sample_vertex(surface, incidence(surface, from), next_numbers(stream));
-    throughput *= conductor_fresnel(metal, vertex.cosine);
-    if (bounce == max_bounces) {
-      throughput *= vertex.leave;
+  int last = (only > 0) ? only : max_bounces;
+  for (int bounce = bounces + 1; bounce <= last; ++bounce) {
+    Vertex vertex = sample_vertex(surface, facet, incidence(surface, walker.v), walker,
+                                  next_numbers(stream), stream);
+    walker.throughput *= facet_weight(facet, vertex.cosine);
+    int leaves = bounce == last;
+    if (leaves)
+      walker.throughput *= vertex.leave;
+    else if (only > 0)
+      walker.throughput *= 1 - vertex.leave;
+    else
+      leaves = next_number(stream) < vertex.leave;
+    if (leaves) {
+      walker.below = walker.below != vertex.crossed;
       return vertex.o;
     }
-    if (next_number(stream) < vertex.leave)
-      return vertex.o;
-    if (max(throughput[0], max(throughput[1], throughput[2])) < tolerance)
+    if (max(walker.throughput[0], max(walker.throughput[1], walker.throughput[2])) < tolerance)
       break;
-    from = -vertex.o;
+    walker = stayed(surface, walker, vertex, stream);
   }
-  throughput = color(0);
+  walker.throughput = color(0);
   return vector(0, 0, 1);
 }
 
