@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from blender_tests.oracle.surface import BECKMANN, GGX, Surface
+from blender_tests.oracle.surface import BECKMANN, GGX, MODELS, Surface
 
 DISTRIBUTIONS = (GGX, BECKMANN)
 ALPHAS = (0.001, 0.004, 0.02, 0.07, 0.25, 0.5, 0.8, 1.0)
@@ -15,8 +15,15 @@ ANISOTROPIES = (0.0, 0.5, 0.95)
 # Makes `surface` of the OSL arguments below.
 SURFACE = (
     "Microsurface surface; surface.alpha_x = alpha[0]; surface.alpha_y = alpha[1]; "
-    "surface.beckmann = int(alpha[2]);"
+    "surface.beckmann = int(alpha[2]) % 2; surface.model = int(alpha[2]) / 2;"
 )
+
+
+def widths(surface: Surface) -> np.ndarray:
+    """alpha_x, alpha_y, and one number for distribution and model, float32 (3,), as SURFACE takes
+    them."""
+    kind = 2 * MODELS.index(surface.model) + (surface.distribution == BECKMANN)
+    return np.float32([surface.alpha_x, surface.alpha_y, kind])
 
 
 def directions(count: int, rng: np.random.Generator) -> np.ndarray:
@@ -52,9 +59,8 @@ class Rows:
 
     @property
     def alpha(self) -> np.ndarray:
-        """alpha_x, alpha_y and 1 for Beckmann, of each row, float32 (count, 3)."""
-        each = [(s.alpha_x, s.alpha_y, float(s.distribution == BECKMANN)) for s in self.surfaces]
-        return np.repeat(np.array(each, dtype=np.float32), self.block, axis=0)
+        """`widths` of each row, float32 (count, 3)."""
+        return np.repeat(np.array([widths(s) for s in self.surfaces]), self.block, axis=0)
 
     def oracle(self, function: Callable[..., np.ndarray], *columns: np.ndarray) -> np.ndarray:
         """`function(*columns of a block in float64, surface)` of every block, joined."""
@@ -71,8 +77,8 @@ def all_surfaces(distribution: str, block: int) -> Rows:
     for alpha in ALPHAS:
         for anisotropy in ANISOTROPIES:
             aspect = np.sqrt(1.0 - 0.9 * anisotropy)
-            widths = np.float32(min(alpha / aspect, 1.0)), np.float32(alpha * aspect)
-            surfaces.append(Surface(float(widths[0]), float(widths[1]), distribution))
+            pair = np.float32(min(alpha / aspect, 1.0)), np.float32(alpha * aspect)
+            surfaces.append(Surface(float(pair[0]), float(pair[1]), distribution))
     return Rows(tuple(surfaces), block)
 
 

@@ -6,31 +6,45 @@ import pytest
 
 from blender_tests.oracle.estimate import energies
 from blender_tests.oracle.fresnel import F82Tint
-from blender_tests.oracle.materials import Conductor
-from blender_tests.oracle.surface import BECKMANN, Surface
+from blender_tests.oracle.materials import Conductor, Dielectric, Diffuse, Material
+from blender_tests.oracle.surface import GGX, MODELS, Surface
 from blender_tests.oracle.vectors import direction
 from blender_tests.oracle.walk import bounces
 
 from .probe import evaluate
-from .samples import DISTRIBUTIONS, SURFACE
+from .samples import DISTRIBUTIONS, SURFACE, widths
 
 COUNT = 40_000
-STREAM = (
-    "RandomStream stream; stream.origin = point(where); stream.counter = 0;"
-    "Conductor metal; metal.physical = 0; metal.first = color(0.9, 0.5, 0.1); metal.second = 1;"
-)
+STREAM = "RandomStream stream; stream.origin = point(where); stream.counter = 0;"
 ROUGH = [(0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
+GOLD = Conductor(F82Tint((0.9, 0.5, 0.1), (1.0, 1.0, 1.0)))
+MATERIALS = [
+    GOLD,
+    Diffuse((0.9, 0.5, 0.1)),
+    Dielectric(1.5),
+    Dielectric(1.0 / 1.5),
+    Dielectric(2.4),
+]
+
+
+def facet(material: Material) -> str:
+    """OSL statements that make a `facet` of the oracle's material."""
+    if isinstance(material, Conductor):
+        rows = ("first = color(0.9, 0.5, 0.1)", "second = 1", "physical = 0")
+        return "Facet facet; facet.kind = CONDUCTOR;" + "".join(f"facet.metal.{r};" for r in rows)
+    if isinstance(material, Diffuse):
+        return f"Facet facet; facet.kind = DIFFUSE; facet.tint = color{material.albedo};"
+    return f"Facet facet; facet.kind = DIELECTRIC; facet.tint = 1; facet.ior = {material.ior!r};"
 
 
 def shade(
     surface: Surface, theta: float, statements: str, includes: str = "walk.h", count: int = COUNT
 ) -> np.ndarray:
     """`statements` at `count` random points of a surface seen from `theta`, (count, 3)."""
-    widths = np.float32([surface.alpha_x, surface.alpha_y, surface.distribution == BECKMANN])
     return evaluate(
         includes,
-        f"{SURFACE} {STREAM} {statements}",
-        alpha=np.tile(widths, (count, 1)),
+        f"{SURFACE} {STREAM} {facet(surface.material)} {statements}",
+        alpha=np.tile(widths(surface), (count, 1)),
         wi=np.tile(direction(theta, 0.6), (count, 1)),
         where=np.random.default_rng(9).uniform(-10.0, 10.0, (count, 3)),
     ).astype(float)
@@ -50,12 +64,12 @@ def test_chosen_vertices_carry_the_kept_energy(
 ) -> None:
     """Weighted by `kept`, the directions of the vertices chosen among candidates have the moments
     of all vertices weighted by the energy that stays: where the weight goes and how it spreads."""
-    surface = Surface(*alpha, distribution)
+    surface = Surface(*alpha, distribution, GOLD)
     wi = np.tile(direction(theta, 0.6), (400_000, 1))
-    vertex = next(bounces(wi, surface, 1, np.random.default_rng(10)))
+    vertex = next(bounces(wi, Surface(*alpha, distribution), 1, np.random.default_rng(10)))
     kept = (
-        "float kept; Vertex chosen = sample_kept_vertex(surface, incidence(surface, wi),"
-        "next_numbers(stream), 8, 4, stream, kept);"
+        "float kept; Vertex chosen = sample_kept_vertex(surface, facet, incidence(surface, wi),"
+        "walker_from(surface, wi, stream), next_numbers(stream), 8, 4, stream, kept);"
     )
     agree(shade(surface, theta, kept + "result = kept * chosen.o;"), vertex.staying * vertex.o)
     agree(
@@ -65,30 +79,52 @@ def test_chosen_vertices_carry_the_kept_energy(
 
 
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
-@pytest.mark.parametrize("alpha", ROUGH)
-def test_energy_of_walks(distribution: str, alpha: tuple[float, float]) -> None:
-    """Coloured energies of up to 1, 2 and 5 bounces are the oracle's."""
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("material", MATERIALS, ids=NAMES)
+@pytest.mark.parametrize("most", [1, 5])
+def test_energy_of_walks(distribution: str, model: str, material: Material, most: int) -> None:
+    """Energies of up to 1 and 5 bounces, reflected and transmitted, are the oracle's."""
     theta = 0.9
-    surface = Surface(*alpha, distribution, Conductor(F82Tint((0.9, 0.5, 0.1), (1.0, 1.0, 1.0))))
-    found = energies(direction(theta, 0.6), surface, 5, 100_000, np.random.default_rng(11)).both
-    for most in (1, 2, 5):
+    surface = Surface(1.0, 0.5, distribution, material, model)
+    found = energies(direction(theta, 0.6), surface, most, 100_000, 11)
+    walked = shade(
+        surface,
+        theta,
+        "Walker walker = walker_from(surface, wi, stream);"
+        f"vector o = walk_to_exit(surface, facet, 0, {most}, 0, 0, stream, walker);"
+        "result = (walker.below ? -1 : 1) * vector(walker.throughput);",
+    )
+    for sign, lobes in ((1.0, found.reflected), (-1.0, found.transmitted)):
+        side = np.maximum(sign * walked, 0.0)
+        wanted = lobes.mean.sum(axis=0)
+        error = np.sqrt(side.var(axis=0) / COUNT + lobes.variance.sum(axis=0))
+        assert np.all(np.abs(side.mean(axis=0) - wanted) < 4.5 * error + 1e-6)
+
+
+@pytest.mark.parametrize("material", [GOLD, Dielectric(1.5)], ids=["conductor", "glass"])
+def test_one_bounce_alone(material: Material) -> None:
+    """`only` k gives the oracle's energy of bounce k."""
+    surface = Surface(1.0, 1.0, GGX, material)
+    found = energies(direction(0.9, 0.6), surface, 4, 100_000, 12).both
+    for only in (1, 2, 4):
         walked = shade(
             surface,
-            theta,
-            "color weight = 1; vector o = walk_to_exit(surface, metal, wi, 0,"
-            f"{most}, 0, stream, weight); result = vector(weight);",
+            0.9,
+            "Walker walker = walker_from(surface, wi, stream);"
+            f"vector o = walk_to_exit(surface, facet, 0, 16, {only}, 0, stream, walker);"
+            "result = vector(walker.throughput);",
         )
-        wanted = found.mean[:most].sum(axis=0)
-        error = np.sqrt(walked.var(axis=0) / COUNT + found.variance[:most].sum(axis=0))
-        assert np.all(np.abs(walked.mean(axis=0) - wanted) < 4.5 * error)
+        error = np.sqrt(walked.var(axis=0) / COUNT + found.variance[only - 1])
+        assert np.all(np.abs(walked.mean(axis=0) - found.mean[only - 1]) < 4.5 * error)
 
 
 def test_tolerance_bounds_what_is_lost() -> None:
     """A path is dropped only when its throughput is below the tolerance."""
     surface = Surface(1.0, 1.0)
     walk = (
-        "color weight = 1; vector o = walk_to_exit(surface, metal, wi, 0, 32, {}, stream, weight);"
-        "result = vector(weight);"
+        "Walker walker = walker_from(surface, wi, stream);"
+        "vector o = walk_to_exit(surface, facet, 0, 32, 0, {}, stream, walker);"
+        "result = vector(walker.throughput);"
     )
     whole, cut = (shade(surface, 0.5, walk.format(tolerance)) for tolerance in (0.0, 0.7))
     lost = np.abs(whole - cut).max(axis=1)

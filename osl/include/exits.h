@@ -32,25 +32,31 @@ int is_left_alone(Frame frame, vector wi, vector n)
   return 2 * dot(n, wi) * dot(n, ground) - view >= min(0.9 * view, 0.01);
 }
 
-// The part of a Beckmann lobe of `spread` (1/e half-width of the cosine) about a direction of
-// cosine z to the normal that lies above the horizon.
-float fraction_above_horizon(float z, float spread)
+// The part that lies on the exit's own side of the horizon of a lobe whose cosine to the normal has
+// the Gaussian density exp(-(x - z)^2 / spread^2) about z.
+float fraction_on_side(float z, float spread)
 {
   return (z < 4 * spread) ? 0.5 * (1 + erf(z / spread)) : 1;
 }
 
+// That part of a mirrored Beckmann lobe: to first order a micronormal of slopes s about h moves the
+// cosine o.z by 2 g.s, and the slopes are Gaussian with variance alpha^2 / 2.
+float fraction_above_horizon(vector wi, float o_z, Frame lobe, float alpha_x, float alpha_y)
+{
+  float along = dot(wi, lobe.z);
+  float gx = alpha_x * (dot(wi, lobe.x) * lobe.z[2] + along * lobe.x[2]);
+  float gy = alpha_y * (dot(wi, lobe.y) * lobe.z[2] + along * lobe.y[2]);
+  return fraction_on_side(o_z, 2 * hypot(gx, gy));
+}
+
 // A reflected exit towards `o`: a Beckmann microfacet lobe about the half vector. Its single bounce
 // loses next to nothing to masking at these widths; what falls below the horizon is given back to
-// the rest: to first order a micronormal of slopes s about h moves the cosine o.z by 2 g.s, and the
-// slopes are Gaussian with variance alpha^2 / 2.
+// the rest.
 closure color smooth_reflection(Frame frame, vector wi, vector o, float alpha_x, float alpha_y,
                                 color weight)
 {
   Frame lobe = shading_frame(normalize(wi + o), vector(1, 0, 0));
-  float along = dot(wi, lobe.z);
-  float gx = alpha_x * (dot(wi, lobe.x) * lobe.z[2] + along * lobe.x[2]);
-  float gy = alpha_y * (dot(wi, lobe.y) * lobe.z[2] + along * lobe.y[2]);
-  float above = fraction_above_horizon(o[2], 2 * hypot(gx, gy));
+  float above = fraction_above_horizon(wi, o[2], lobe, alpha_x, alpha_y);
   return (weight / above) * microfacet("beckmann", to_world(frame, lobe.z), to_world(frame, lobe.x),
                                        alpha_x, alpha_y, 1, 0);
 }
@@ -90,7 +96,7 @@ closure color smooth_transmission(Frame frame, vector wi, vector down, float wid
     return weight * hair_exit(frame, wi, down, HAIR_PER_KERNEL * width);
   // With the low index the ray turns by more than the facet does.
   float alpha = (ior < 1) ? ior * sqrt(turn) * width : width;
-  float below = fraction_above_horizon(-down[2], width);
+  float below = fraction_on_side(-down[2], width);
   return (weight / below) * microfacet("beckmann", to_world(frame, facet),
                                        to_world(frame, any_tangent(facet)), alpha, alpha, ior, 1);
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The width and the horizon of smoothed exits (closures.h)."""
+"""The width and the horizon of smoothed exits (exits.h)."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_kernels_keep_their_energy(
     energy = np.mean(shadowing * ((reflected @ axes)[:, 2] > 0.0))
     assert sigma(v[:1], lobe)[0] > 0.0
     fraction = evaluate(
-        "closures.h",
+        "exits.h",
         "Frame lobe = shading_frame(normalize(wi + o), vector(1, 0, 0));"
         "result = fraction_above_horizon(wi, o[2], lobe, alpha[0], alpha[1]);",
         wi=[wi],
