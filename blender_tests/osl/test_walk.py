@@ -18,13 +18,8 @@ COUNT = 40_000
 STREAM = "RandomStream stream; stream.origin = point(where); stream.counter = 0;"
 ROUGH = [(0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
 GOLD = Conductor(F82Tint((0.9, 0.5, 0.1), (1.0, 1.0, 1.0)))
-MATERIALS = [
-    GOLD,
-    Diffuse((0.9, 0.5, 0.1)),
-    Dielectric(1.5),
-    Dielectric(1.0 / 1.5),
-    Dielectric(2.4),
-]
+MATERIALS = [GOLD, Diffuse((0.9, 0.5, 0.1)), Dielectric(1.5), Dielectric(1 / 1.5), Dielectric(2.4)]
+NAMES = ["conductor", "diffuse", "glass", "glass from inside", "diamond"]
 
 
 def facet(material: Material) -> str:
