@@ -6,7 +6,7 @@ import bpy
 from .ops import material, node, osl
 from .ui import menus, panels
 
-_MODULES = (osl, material, node, panels)
+_MODULES = (osl, material, node, menus, panels)
 _CLASSES = tuple(cls for module in _MODULES for cls in module.CLASSES)
 
 

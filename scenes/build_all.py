@@ -4,13 +4,17 @@
 import os
 import sys
 
-from . import build_furnace_conductor, build_showcase, build_sphere_sun_conductor
+from addon.core.kinds import KINDS
+
+from . import build_showcase, fixtures
 
 
 def main() -> None:
     """Build them one after the other."""
-    build_sphere_sun_conductor.build()
-    build_furnace_conductor.build()
+    for kind in KINDS:
+        fixtures.build_sphere_sun(kind)
+        fixtures.build_furnace(kind)
+    fixtures.build_slab("DIELECTRIC")
     build_showcase.build()
 
 

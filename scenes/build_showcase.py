@@ -9,7 +9,7 @@ import math
 
 import bpy
 
-from addon.nodes.conductor import conductor_material
+from addon.nodes.group import new_material
 
 from . import common, shapes
 
@@ -132,7 +132,7 @@ def _place(
     rotation: tuple[float, float, float] = (0.0, 0.0, 0.0),
     scale: float = 1.0,
 ) -> bpy.types.Object:
-    data.materials.append(conductor_material(metal, **METALS[metal]))
+    data.materials.append(new_material("CONDUCTOR", metal, **METALS[metal]))
     added = common.add_object(name, data)
     added.location = location
     added.rotation_euler = rotation

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the scripts that build the scenes share: an empty file, settings, the unit sphere."""
 
+import math
 from itertools import pairwise
 from pathlib import Path
 
@@ -13,6 +14,9 @@ FOLDER = Path(__file__).resolve().parent
 # analytic sphere's, far below what an alpha of 0.01 resolves.
 SPHERE_SEGMENTS = 512
 SPHERE_RINGS = 256
+# Names of its node tree, and of the node in it that turns its faces.
+SPHERE = "Unit Sphere"
+INSIDE_OUT = "Inside Out"
 
 
 def start_scene(resolution: tuple[int, int], samples: int) -> bpy.types.Scene:
@@ -89,30 +93,55 @@ def add_front_camera(scene: bpy.types.Scene) -> bpy.types.Object:
     return camera
 
 
+def add_camera(
+    scene: bpy.types.Scene,
+    location: tuple[float, float, float],
+    direction: tuple[float, float, float],
+    angle: float,
+) -> bpy.types.Object:
+    """Add a perspective camera whose picture spans `angle` degrees along its longer side."""
+    data = bpy.data.cameras.new("Camera")
+    data.angle = math.radians(angle)
+    camera = add_object("Camera", data)
+    camera.location = location
+    aim(camera, direction)
+    scene.camera = camera
+    return camera
+
+
+def show_to_camera_only(target: bpy.types.Object) -> None:
+    """Let every ray but the camera's pass through, those of shadows included."""
+    for ray in ("diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
+        setattr(target, f"visible_{ray}", False)
+
+
 def add_unit_sphere(material: bpy.types.Material) -> bpy.types.Object:
     """Add a smooth unit sphere at the origin, its poles on Z.
 
     Geometry nodes make it, so that a sphere this fine takes no room in the file.
     """
-    tree = bpy.data.node_groups.new("Unit Sphere", "GeometryNodeTree")
+    tree = bpy.data.node_groups.new(SPHERE, "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     sphere = tree.nodes.new("GeometryNodeMeshUVSphere")
     sphere.inputs["Segments"].default_value = SPHERE_SEGMENTS
     sphere.inputs["Rings"].default_value = SPHERE_RINGS
     sphere.inputs["Radius"].default_value = 1.0
+    flip = tree.nodes.new("GeometryNodeFlipFaces")
+    flip.name = flip.label = INSIDE_OUT
+    flip.inputs["Selection"].default_value = False
     smooth = tree.nodes.new("GeometryNodeSetShadeSmooth")
     assign = tree.nodes.new("GeometryNodeSetMaterial")
     assign.inputs["Material"].default_value = material
     output = tree.nodes.new("NodeGroupOutput")
-    chain = (sphere, smooth, assign, output)
+    chain = (sphere, flip, smooth, assign, output)
     for index, (first, second) in enumerate(pairwise(chain)):
         tree.links.new(first.outputs[0], second.inputs[0])
         second.location = (200 * (index + 1), 0)
     mesh = bpy.data.meshes.new("Sphere")
     mesh.materials.append(material)
     added = add_object("Sphere", mesh)
-    added.modifiers.new("Unit Sphere", "NODES").node_group = tree
+    added.modifiers.new(SPHERE, "NODES").node_group = tree
     return added
 
 

@@ -53,7 +53,7 @@ class Variant:
         times = [(seconds - self.warm_up) / (samples - 1) for seconds in self.seconds]
         return statistics.median(times)
 
-    def apply(self, metals: list[variants.Metal]) -> None:
+    def apply(self, metals: list[variants.Material]) -> None:
         """Switch the open scene to this variant."""
         if self.switch == "CYCLES":
             variants.use_cycles_multiscatter(metals)
@@ -71,7 +71,7 @@ def three_variants() -> list[Variant]:
 
 
 def render_variants(
-    compared: list[Variant], metals: list[variants.Metal], folder: Path, samples: int
+    compared: list[Variant], metals: list[variants.Material], folder: Path, samples: int
 ) -> np.ndarray:
     """Render all passes; fill in `compared` and return the object index of each pixel."""
     log = folder / "blender.log"
@@ -101,7 +101,7 @@ def render_variants(
     return np.rint(passes["IndexOB.X"]).astype(int)
 
 
-def energies(variant: Variant, index: np.ndarray, metals: list[variants.Metal]) -> list[float]:
+def energies(variant: Variant, index: np.ndarray, metals: list[variants.Material]) -> list[float]:
     """Return the mean radiance over all metals, then over each of them."""
     radiance = variant.radiance
     masks = [index > 0, *(index == metal.index for metal in metals)]
@@ -109,7 +109,7 @@ def energies(variant: Variant, index: np.ndarray, metals: list[variants.Metal]) 
 
 
 def captions(
-    compared: list[Variant], index: np.ndarray, metals: list[variants.Metal], per_pass: int
+    compared: list[Variant], index: np.ndarray, metals: list[variants.Material], per_pass: int
 ) -> list[list[str]]:
     """Return the lines under each picture."""
     base = energies(compared[0], index, metals)
@@ -133,7 +133,7 @@ def captions(
 def print_report(
     compared: list[Variant],
     index: np.ndarray,
-    metals: list[variants.Metal],
+    metals: list[variants.Material],
     white: dict[str, list[float]],
     per_pass: int,
 ) -> None:
@@ -189,7 +189,7 @@ def main() -> None:
     print(f"Blender {bpy.app.version_string}, {os.cpu_count()} cores, OSL on; into {folder}")
     with render.messages_to(folder / "blender.log"):
         bpy.ops.wm.open_mainfile(filepath=str(SCENE))
-    metals = variants.find_metals()
+    metals = variants.find_materials()
     compared = three_variants()
     per_pass = arguments.samples // PASSES
     index = render_variants(compared, metals, folder, arguments.samples)

@@ -21,11 +21,11 @@ class Switch(Protocol):
 
     key: str
 
-    def apply(self, metals: list[variants.Metal]) -> None:
+    def apply(self, metals: list[variants.Material]) -> None:
         """Switch `metals`."""
 
 
-def energies(metals: list[variants.Metal], compared: list[Switch], log: Path) -> dict:
+def energies(metals: list[variants.Material], compared: list[Switch], log: Path) -> dict:
     """Return by each variant's key the mean radiance of a white sphere of every metal's surface.
 
     Opens the furnace in place of the current file; `metals` are invalid afterwards. The mean is
@@ -36,7 +36,7 @@ def energies(metals: list[variants.Metal], compared: list[Switch], log: Path) ->
         bpy.ops.wm.open_mainfile(filepath=str(SCENE))
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = SIZE
-    white = variants.find_metals()
+    white = variants.find_materials()
     found: dict[str, list[float]] = {variant.key: [] for variant in compared}
     work = log.with_name("furnace.exr")
     steps = tqdm(total=len(surfaces) * len(compared), desc="Furnace", unit="sphere")

@@ -33,26 +33,26 @@ def osl_state(built_with_osl: bool, engine: str, shading_system: bool, device: s
     if not built_with_osl:
         return Status(
             False,
-            "This Blender was built without Open Shading Language; the simple metal shows.",
+            "This Blender was built without Open Shading Language; Cycles' own material shows.",
             "Use a Blender from blender.org.",
         )
     if engine != "CYCLES":
         return Status(
             False,
-            "The render engine is not Cycles; the simple metal shows.",
+            "The render engine is not Cycles; Cycles' own material shows.",
             "Choose Cycles in the render properties.",
         )
     if not shading_system:
         return Status(
             False,
-            "Open Shading Language is off; the simple metal shows.",
+            "Open Shading Language is off; Cycles' own material shows.",
             "Switch it on in the render properties.",
             can_enable=True,
         )
     if device not in ("CPU", "OPTIX"):
         return Status(
             False,
-            f"{device} devices have no Open Shading Language; the simple metal shows.",
+            f"{device} devices have no Open Shading Language; Cycles' own material shows.",
             "Render on the CPU or with OptiX.",
         )
     return Status(True)

@@ -6,7 +6,7 @@ Cycles' own way needs the `oslquery` module, which not every Blender can import.
 
 from dataclasses import dataclass
 
-from .parameters import Parameter
+from .parameter import Parameter
 
 _KIND_TYPES = {
     "COLOR": ("color",),

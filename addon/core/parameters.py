@@ -2,157 +2,15 @@
 """The one specification of every material parameter.
 
 Shader parameters, node-group sockets and documentation are made from this or tested against it.
+What all materials have is written once and comes last in each of them.
 """
 
-from dataclasses import dataclass
-from numbers import Integral, Real
-
-KINDS = ("COLOR", "FLOAT", "INT", "VECTOR", "NORMAL", "TANGENT")
-VECTOR_KINDS = ("COLOR", "VECTOR", "NORMAL", "TANGENT")
-
-Value = float | int | tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """One parameter of a material.
-
-    identifier -- its name in the OSL shader
-    label      -- its name on the node, as on Cycles' Metallic BSDF where that has it
-    kind       -- one of KINDS
-    default    -- a number, or three numbers; zero for NORMAL and TANGENT means "the surface's own"
-    legal      -- smallest and largest value accepted; the node's limits
-    useful     -- the range in which the parameter makes a visible, plausible difference
-    unit       -- "" (plain number), "turns", "rad" or "bounces", "walks"
-    tooltip    -- shown on the socket; for a choice it is followed by the meaning of each number
-    choices    -- names of the values 0, 1, 2 ... of an INT that is a choice, else empty
-    panel      -- name of the node's panel that shows it, "" for the top of the node
-    """
-
-    identifier: str
-    label: str
-    kind: str
-    default: Value
-    legal: tuple[float, float]
-    useful: tuple[float, float]
-    unit: str = ""
-    tooltip: str = ""
-    choices: tuple[str, ...] = ()
-    panel: str = ""
-
-    def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise ValueError(f"{self.identifier}: kind {self.kind!r} is not one of {KINDS}")
-        if self.choices and self.legal != (0, len(self.choices) - 1):
-            raise ValueError(f"{self.identifier}: {len(self.choices)} choices, legal {self.legal}")
-        self.checked(self.default)
-
-    @property
-    def is_vector(self) -> bool:
-        """True where a value is three numbers."""
-        return self.kind in VECTOR_KINDS
-
-    def checked(self, value: object) -> Value:
-        """Return `value` in the form of this parameter: int, float, or a tuple of three floats.
-
-        A choice is accepted by number or by its name. Raises TypeError for a wrong type or
-        number of components and ValueError for a value that is not finite or outside `legal`.
-        """
-        if self.choices and isinstance(value, str):
-            names = [name.lower() for name in self.choices]
-            if value.lower() not in names:
-                raise ValueError(f"{self.identifier} is {value!r}: use one of {self.choices}")
-            return names.index(value.lower())
-        if self.is_vector:
-            return self._checked_vector(value)
-        wanted = Integral if self.kind == "INT" else Real
-        if not isinstance(value, wanted):
-            noun = "a whole number" if self.kind == "INT" else "a number"
-            raise TypeError(f"{self.identifier} is {value!r}: give {noun}")
-        self._check_range(value, value)
-        return int(value) if self.kind == "INT" else float(value)
-
-    def _checked_vector(self, value: object) -> tuple[float, float, float]:
-        iterable = hasattr(value, "__iter__") and not isinstance(value, str)
-        components = tuple(value) if iterable else ()
-        # A colour with alpha is what Blender's own colour properties hold.
-        if self.kind == "COLOR" and len(components) == 4:
-            components = components[:3]
-        if len(components) != 3 or not all(isinstance(c, Real) for c in components):
-            raise TypeError(f"{self.identifier} is {value!r}: give three numbers")
-        for component in components:
-            self._check_range(component, value)
-        return tuple(float(c) for c in components)
-
-    def _check_range(self, number: float, value: object) -> None:
-        low, high = self.legal
-        if not low <= number <= high:  # as for NaN, which compares false
-            raise ValueError(f"{self.identifier} is {value!r}: it goes from {low:g} to {high:g}")
-
-    @property
-    def description(self) -> str:
-        """The tooltip together with what each number of a choice means."""
-        if not self.choices:
-            return self.tooltip
-        meanings = ", ".join(f"{number} {name}" for number, name in enumerate(self.choices))
-        return f"{self.tooltip} ({meanings})"
-
+from .parameter import Parameter
 
 FRESNEL_PANEL = "Fresnel"
 BOUNCES_PANEL = "Multiple Bounces"
 
-CONDUCTOR: tuple[Parameter, ...] = (
-    Parameter(
-        "BaseColor",
-        "Base Color",
-        "COLOR",
-        (0.617, 0.577, 0.540),
-        (0.0, 1.0),
-        (0.0, 1.0),
-        tooltip="Colour of the metal seen straight on: its reflectance at normal incidence. "
-        "Used by the F82 tint",
-    ),
-    Parameter(
-        "EdgeTint",
-        "Edge Tint",
-        "COLOR",
-        (0.695, 0.726, 0.770),
-        (0.0, 1.0),
-        (0.4, 1.0),
-        tooltip="Tint of the reflectance near 82 degrees, on top of the base colour. "
-        "Used by the F82 tint",
-    ),
-    Parameter(
-        "Fresnel",
-        "Fresnel",
-        "INT",
-        0,
-        (0, 1),
-        (0, 1),
-        tooltip="What gives each reflection its colour",
-        choices=("F82 tint", "n and k"),
-        panel=FRESNEL_PANEL,
-    ),
-    Parameter(
-        "IOR",
-        "IOR",
-        "VECTOR",
-        (2.757, 2.513, 2.231),
-        (0.0, 100.0),
-        (0.1, 5.0),
-        tooltip="Index of refraction n for red, green and blue. Used by n and k",
-        panel=FRESNEL_PANEL,
-    ),
-    Parameter(
-        "Extinction",
-        "Extinction",
-        "VECTOR",
-        (3.867, 3.404, 3.009),
-        (0.0, 100.0),
-        (1.0, 10.0),
-        tooltip="Extinction coefficient k for red, green and blue. Used by n and k",
-        panel=FRESNEL_PANEL,
-    ),
+_SHARED: tuple[Parameter, ...] = (
     Parameter(
         "Roughness",
         "Roughness",
@@ -170,8 +28,8 @@ CONDUCTOR: tuple[Parameter, ...] = (
         0.0,
         (0.0, 1.0),
         (0.0, 0.95),
-        tooltip="Stretches reflections along the tangent: the two alphas are alpha / a and "
-        "alpha * a with a = sqrt(1 - 0.9 anisotropy)",
+        tooltip="Makes the microsurface rougher along the tangent and smoother across it: the two "
+        "alphas are alpha / a and alpha * a with a = sqrt(1 - 0.9 anisotropy)",
     ),
     Parameter(
         "Rotation",
@@ -212,10 +70,23 @@ CONDUCTOR: tuple[Parameter, ...] = (
         "INT",
         0,
         (0, 2),
-        (0, 0),
-        tooltip="How the heights of successive bounces depend on one another. Only 0 is made yet: "
-        "1 and 2 print a message and use 0",
+        (0, 2),
+        tooltip="How heights enter the chance to leave after a bounce. Height-correlated: arriving "
+        "and leaving light share the height of the facet. Height-uncorrelated: they do not, and "
+        "the result is reciprocal. Height-tracked: a path carries its height from bounce to bounce "
+        "(Heitz et al. 2016)",
         choices=("height-correlated", "height-uncorrelated", "height-tracked"),
+        panel=BOUNCES_PANEL,
+    ),
+    Parameter(
+        "BounceOnly",
+        "Bounce Only",
+        "INT",
+        0,
+        (0, 64),
+        (0, 8),
+        unit="bounces",
+        tooltip="0 shows all bounces, k shows bounce k alone, for study",
         panel=BOUNCES_PANEL,
     ),
     Parameter(
@@ -281,4 +152,95 @@ CONDUCTOR: tuple[Parameter, ...] = (
         (-1.0, 1.0),
         tooltip="Direction of the anisotropy; when unlinked or zero, around the object's Z axis",
     ),
+)
+
+CONDUCTOR: tuple[Parameter, ...] = (
+    Parameter(
+        "BaseColor",
+        "Base Color",
+        "COLOR",
+        (0.617, 0.577, 0.540),
+        (0.0, 1.0),
+        (0.0, 1.0),
+        tooltip="Colour of the metal seen straight on: its reflectance at normal incidence. "
+        "Used by the F82 tint",
+    ),
+    Parameter(
+        "EdgeTint",
+        "Edge Tint",
+        "COLOR",
+        (0.695, 0.726, 0.770),
+        (0.0, 1.0),
+        (0.4, 1.0),
+        tooltip="Tint of the reflectance near 82 degrees, on top of the base colour. "
+        "Used by the F82 tint",
+    ),
+    Parameter(
+        "Fresnel",
+        "Fresnel",
+        "INT",
+        0,
+        (0, 1),
+        (0, 1),
+        tooltip="What gives each reflection its colour",
+        choices=("F82 tint", "n and k"),
+        panel=FRESNEL_PANEL,
+    ),
+    Parameter(
+        "IOR",
+        "IOR",
+        "VECTOR",
+        (2.757, 2.513, 2.231),
+        (0.0, 100.0),
+        (0.1, 5.0),
+        tooltip="Index of refraction n for red, green and blue. Used by n and k",
+        panel=FRESNEL_PANEL,
+    ),
+    Parameter(
+        "Extinction",
+        "Extinction",
+        "VECTOR",
+        (3.867, 3.404, 3.009),
+        (0.0, 100.0),
+        (1.0, 10.0),
+        tooltip="Extinction coefficient k for red, green and blue. Used by n and k",
+        panel=FRESNEL_PANEL,
+    ),
+    *_SHARED,
+)
+
+DIELECTRIC: tuple[Parameter, ...] = (
+    Parameter(
+        "Color",
+        "Color",
+        "COLOR",
+        (1.0, 1.0, 1.0),
+        (0.0, 1.0),
+        (0.8, 1.0),
+        tooltip="Tint of the glass: what is left of the light after each bounce. White loses none",
+    ),
+    Parameter(
+        "IOR",
+        "IOR",
+        "FLOAT",
+        1.5,
+        (0.01, 100.0),
+        (1.0, 2.5),
+        tooltip="Index of refraction inside over that outside; the surface's normals point outside",
+    ),
+    *_SHARED,
+)
+
+DIFFUSE: tuple[Parameter, ...] = (
+    Parameter(
+        "Color",
+        "Color",
+        "COLOR",
+        (0.8, 0.8, 0.8),
+        (0.0, 1.0),
+        (0.0, 0.95),
+        tooltip="Albedo of the facets: what is left of the light after each bounce. Further "
+        "bounces deepen the colour",
+    ),
+    *_SHARED,
 )

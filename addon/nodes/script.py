@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 
 from ..core.oso import check_against
-from ..core.parameters import CONDUCTOR, Parameter
+from ..core.parameter import Parameter
 from .capture import captured_output
 from .sockets import SOCKET_TYPES, socket_value
 
@@ -70,10 +70,10 @@ def _without_paths(bytecode: str) -> str:
 
 def fill_script_node(
     node: bpy.types.Node,
+    parameters: tuple[Parameter, ...],
     source: str,
     bytecode: str,
     text_name: str,
-    parameters: tuple[Parameter, ...] = CONDUCTOR,
 ) -> bpy.types.Text:
     """Give a script node the sockets, source text and bytecode it lacks; return the text block.
 

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..core.parameters import Parameter
+from ..core.parameter import Parameter
 
 SOCKET_TYPES = {
     "COLOR": "NodeSocketColor",

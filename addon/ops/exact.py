@@ -5,11 +5,12 @@ from collections.abc import Iterator
 
 import bpy
 
+from ..core.kinds import KINDS
 from ..core.lamps import Lamp, exact_warning
-from ..core.parameters import CONDUCTOR
-from ..nodes.conductor import STAMP_KEY
+from ..nodes.group import STAMP_KEY
 
-(_QUALITY,) = (parameter for parameter in CONDUCTOR if parameter.identifier == "Quality")
+# One for all kinds.
+_QUALITY = KINDS["CONDUCTOR"].by_identifier["Quality"]
 _EXACT = _QUALITY.checked("Exact")
 
 

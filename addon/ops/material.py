@@ -3,7 +3,9 @@
 
 import bpy
 
-from ..nodes.conductor import GROUP_ERRORS, GROUP_NAME, conductor_material
+from ..core.kinds import KINDS
+from ..nodes.group import GROUP_ERRORS, new_material
+from .kinds import KIND_ITEMS
 from .osl import osl_status
 
 # Types whose data hold surface materials. A volume has no surface, and grease pencil has its own.
@@ -41,15 +43,23 @@ def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None
     slot.material = material
 
 
-class MICROBOUNCE_OT_add_conductor_material(bpy.types.Operator):
-    """Give the active object a new Microbounce Conductor material."""
+class MICROBOUNCE_OT_add_material(bpy.types.Operator):
+    """Give the active object a new material of ours."""
 
-    bl_idname = "microbounce.add_conductor_material"
-    bl_label = "Add Microbounce Conductor"
-    bl_description = (
-        "Put a new Microbounce Conductor material into the active object's material slot"
-    )
+    bl_idname = "microbounce.add_material"
+    bl_label = "Add Microbounce Material"
+    bl_description = "Put a new Microbounce material into the active object's material slot"
     bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(name="Kind", description="What it is made of", items=KIND_ITEMS)
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Name the kind in the tooltip of a button."""
+        name = KINDS[properties.kind].name
+        return f"Put a new {name} material into the active object's material slot"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -63,7 +73,7 @@ class MICROBOUNCE_OT_add_conductor_material(bpy.types.Operator):
         """Make the material, assign it, and warn where its shader will not run."""
         obj = context.object
         try:
-            material = conductor_material(GROUP_NAME)
+            material = new_material(self.kind, KINDS[self.kind].name)
         except GROUP_ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -74,4 +84,4 @@ class MICROBOUNCE_OT_add_conductor_material(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (MICROBOUNCE_OT_add_conductor_material,)
+CLASSES = (MICROBOUNCE_OT_add_material,)

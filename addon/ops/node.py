@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adds the node group in the Shader editor."""
+"""Adds a node group in the Shader editor."""
 
 import bpy
 
-from ..nodes.conductor import GROUP_ERRORS, add_group_node, conductor_group
+from ..core.kinds import KINDS
+from ..nodes.group import GROUP_ERRORS, add_group_node, material_group
+from .kinds import KIND_ITEMS
 from .osl import osl_status
 
 
@@ -13,7 +15,7 @@ def obstacle(context: bpy.types.Context) -> str:
     if space is None or space.type != "NODE_EDITOR" or space.tree_type != "ShaderNodeTree":
         return "This works in the Shader editor: open one"
     if space.shader_type != "OBJECT":
-        return "A metal is for objects: choose Object in the Shader editor's header"
+        return "These materials are for objects: choose Object in the Shader editor's header"
     if space.edit_tree is None:
         return "There is no material here: press New in the Shader editor's header"
     if not space.edit_tree.is_editable:
@@ -21,13 +23,23 @@ def obstacle(context: bpy.types.Context) -> str:
     return ""
 
 
-class MICROBOUNCE_OT_add_conductor_node(bpy.types.Operator):
-    """Add the node group at the cursor of the Shader editor."""
+class MICROBOUNCE_OT_add_node(bpy.types.Operator):
+    """Add a node group at the cursor of the Shader editor."""
 
-    bl_idname = "microbounce.add_conductor_node"
-    bl_label = "Microbounce Conductor"
-    bl_description = "Add a metal that keeps the light of several bounces on its microsurface"
+    bl_idname = "microbounce.add_node"
+    bl_label = "Add Microbounce Node"
+    bl_description = "Add a material that keeps the light of several bounces on its microsurface"
     bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(name="Kind", description="What it is made of", items=KIND_ITEMS)
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Name the kind in the tooltip of a button."""
+        surface = KINDS[properties.kind].surface.lower()
+        return f"Add a {surface} that keeps the light of several bounces on its microsurface"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -54,7 +66,7 @@ class MICROBOUNCE_OT_add_conductor_node(bpy.types.Operator):
         space = context.space_data
         tree = space.edit_tree
         try:
-            group = conductor_group()
+            group = material_group(self.kind)
         except GROUP_ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -73,4 +85,4 @@ class MICROBOUNCE_OT_add_conductor_node(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (MICROBOUNCE_OT_add_conductor_node,)
+CLASSES = (MICROBOUNCE_OT_add_node,)

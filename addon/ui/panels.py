@@ -6,10 +6,10 @@ import textwrap
 import bpy
 
 from ..core import VERSION
-from ..nodes.conductor import GROUP_NAME
+from ..core.kinds import KINDS
 from ..ops.exact import missed_lights
-from ..ops.material import MICROBOUNCE_OT_add_conductor_material
-from ..ops.node import MICROBOUNCE_OT_add_conductor_node
+from ..ops.material import MICROBOUNCE_OT_add_material
+from ..ops.node import MICROBOUNCE_OT_add_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
 
 # Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
@@ -31,6 +31,13 @@ def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     warning = missed_lights(context)
     if warning:
         _draw_text(layout, context, warning, "ERROR")
+
+
+def draw_buttons(layout: bpy.types.UILayout, operator: str) -> None:
+    """Draw a button for each kind of material; `operator` is what adds it."""
+    column = layout.column(align=True)
+    for identifier, kind in KINDS.items():
+        column.operator(operator, text=f"Add {kind.name}", icon="ADD").kind = identifier
 
 
 def _draw_text(
@@ -57,11 +64,9 @@ class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
         return context.space_data.tree_type == "ShaderNodeTree"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is to know before rendering, and the Add button."""
+        """Draw what is to know before rendering, and buttons for new nodes."""
         draw_state(self.layout, context)
-        self.layout.operator(
-            MICROBOUNCE_OT_add_conductor_node.bl_idname, text=f"Add {GROUP_NAME}", icon="ADD"
-        )
+        draw_buttons(self.layout, MICROBOUNCE_OT_add_node.bl_idname)
         self.layout.label(text=f"Version {VERSION}")
 
 
@@ -80,9 +85,9 @@ class MICROBOUNCE_PT_material(bpy.types.Panel):
         return context.object is not None or getattr(context, "material", None) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is to know before rendering, and the button for a new material."""
+        """Draw what is to know before rendering, and buttons for a new material."""
         draw_state(self.layout, context)
-        self.layout.operator(MICROBOUNCE_OT_add_conductor_material.bl_idname, icon="ADD")
+        draw_buttons(self.layout, MICROBOUNCE_OT_add_material.bl_idname)
 
 
 CLASSES = (MICROBOUNCE_PT_shader_editor, MICROBOUNCE_PT_material)

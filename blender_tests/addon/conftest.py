@@ -3,6 +3,14 @@
 
 import pytest
 
+from addon.core.kinds import KINDS
+
+
+@pytest.fixture(params=list(KINDS))
+def kind(request):
+    """Each kind of material in turn, by its identifier."""
+    return request.param
+
 
 @pytest.fixture
 def empty_file():

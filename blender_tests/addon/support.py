@@ -13,6 +13,11 @@ import OpenImageIO
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZE = 40
+NATIVE = {
+    "CONDUCTOR": "ShaderNodeBsdfMetallic",
+    "DIELECTRIC": "ShaderNodeBsdfGlass",
+    "DIFFUSE": "ShaderNodeBsdfDiffuse",
+}
 
 # A child hands back one line of JSON and leaves at once: bpy 4.5 was seen to hang in its tear-down.
 _PRELUDE = """
@@ -115,13 +120,18 @@ def surface_material(
     return material, tree, tree.nodes.new("ShaderNodeOutputMaterial")
 
 
-def native_metal(
-    name: str, distribution: str, fresnel: str, **values: object
-) -> bpy.types.Material:
-    """Return a material of one Metallic BSDF node; `values` are sockets by name."""
-    material, tree, output = surface_material(name)
-    node = tree.nodes.new("ShaderNodeBsdfMetallic")
-    node.distribution, node.fresnel_type = distribution, fresnel
+def native_material(kind: str, **values: object) -> bpy.types.Material:
+    """Return a material of the node of Cycles' own that is the fallback of this kind.
+
+    `values` are the node's sockets by name, and Distribution and Fresnel as numbers.
+    """
+    material, tree, output = surface_material("Native")
+    node = tree.nodes.new(NATIVE[kind])
+    distribution, fresnel = values.pop("Distribution", 0), values.pop("Fresnel", 0)
+    if kind != "DIFFUSE":
+        node.distribution = ("MULTI_GGX", "BECKMANN")[distribution]
+    if kind == "CONDUCTOR":
+        node.fresnel_type = ("F82", "PHYSICAL_CONDUCTOR")[fresnel]
     for socket, value in values.items():
         node.inputs[socket].default_value = value
     tree.links.new(node.outputs[0], output.inputs["Surface"])

@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 
 from addon.core import VERSION
+from addon.core.kinds import KINDS, kind_named
 from addon.core.osl_state import osl_state
 from addon.core.oso import check_against, oso_parameters
-from addon.core.parameters import CONDUCTOR, Parameter
+from addon.core.parameter import Parameter
+from addon.core.parameters import CONDUCTOR
 from blender_tests.addon.support import ROOT
 
 BY_NAME = {parameter.identifier: parameter for parameter in CONDUCTOR}
@@ -50,7 +52,14 @@ def test_manifest_agrees_with_the_code_and_the_rules():
     assert "permissions" not in manifest
 
 
-@pytest.mark.parametrize("parameter", CONDUCTOR, ids=lambda parameter: parameter.identifier)
+@pytest.mark.parametrize(
+    "parameter",
+    [
+        pytest.param(parameter, id=f"{kind.label} {parameter.identifier}")
+        for kind in KINDS.values()
+        for parameter in kind.parameters
+    ],
+)
 def test_parameter_is_described_and_its_ranges_nest(parameter):
     low, high = parameter.legal
     assert low <= parameter.useful[0] <= parameter.useful[1] <= high
@@ -58,6 +67,23 @@ def test_parameter_is_described_and_its_ranges_nest(parameter):
     assert not parameter.tooltip.endswith(".")
     for number, name in enumerate(parameter.choices):
         assert f"{number} {name}" in parameter.description
+
+
+def test_kinds_share_the_parameters_that_all_have():
+    common = set.intersection(*({p.identifier for p in kind.parameters} for kind in KINDS.values()))
+    assert {"Roughness", "Quality", "Model", "BounceOnly", "Kernel", "Normal"} <= common
+    for identifier in common:
+        assert len({id(kind.by_identifier[identifier]) for kind in KINDS.values()}) == 1
+
+
+def test_kinds_are_named():
+    assert {kind.name: kind.shader for kind in KINDS.values()} == {
+        "Microbounce Conductor": "microbounce_conductor",
+        "Microbounce Dielectric": "microbounce_dielectric",
+        "Microbounce Diffuse": "microbounce_diffuse",
+    }
+    with pytest.raises(ValueError, match="is 'GLASS': use one of CONDUCTOR, DIELECTRIC, DIFFUSE"):
+        kind_named("GLASS")
 
 
 @pytest.mark.parametrize(

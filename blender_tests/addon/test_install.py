@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from addon.core import VERSION
+from addon.core.kinds import KINDS
 from blender_tests.addon.support import ROOT, read_picture, run_blender
 
 
@@ -43,7 +44,7 @@ def test_zip_holds_the_extension_and_nothing_else(archive):
     shaders = [*(ROOT / "osl").glob("*.osl"), *(ROOT / "osl").rglob("*.h")]
     expected |= {path.relative_to(ROOT).as_posix() for path in shaders}
     assert names == expected
-    assert "osl/microbounce_conductor.osl" in names
+    assert {f"osl/{kind.shader}.osl" for kind in KINDS.values()} <= names
     assert "blender_manifest.toml" in names
 
 
@@ -91,7 +92,7 @@ MAKE = (
 scene, sphere = small_scene(osl=True)
 bpy.ops.preferences.addon_enable(module=name)  # the factory settings switched it off
 sphere.data.materials.clear()
-bpy.ops.microbounce.add_conductor_material()
+bpy.ops.microbounce.add_material(kind={kind!r})
 node = next(n for n in sphere.active_material.node_tree.nodes if n.type == "GROUP")
 node.inputs["Roughness"].default_value = 0.8
 node.inputs["Anisotropy"].default_value = {anisotropy}
@@ -115,19 +116,24 @@ bpy.ops.render.render(write_still=True)
 finish({{
     "addons": [addon.module for addon in bpy.context.preferences.addons],
     "modules": [name for name in sys.modules if "microbounce" in name or name == "addon"],
-    "operator": "add_conductor_material" in dir(bpy.ops.microbounce),
+    "operator": "add_material" in dir(bpy.ops.microbounce),
 }})
 """
 
 
-@pytest.mark.parametrize("anisotropy", [0.0, 0.9])
+@pytest.mark.parametrize(
+    ("kind", "anisotropy"),
+    [("CONDUCTOR", 0.0), ("CONDUCTOR", 0.9), ("DIELECTRIC", 0.5), ("DIFFUSE", 0.5)],
+)
 def test_file_made_with_the_installed_zip_renders_the_same_without_it(
-    archive, tmp_path, anisotropy
+    archive, tmp_path, kind, anisotropy
 ):
     blend = str(tmp_path / "metal.blend")
     with_it, without = tmp_path / "with.exr", tmp_path / "without.exr"
     made = run_blender(
-        MAKE.format(archive=str(archive), exr=str(with_it), blend=blend, anisotropy=anisotropy),
+        MAKE.format(
+            archive=str(archive), exr=str(with_it), blend=blend, kind=kind, anisotropy=anisotropy
+        ),
         tmp_path,
     )
     assert made["installed"] == ["FINISHED"]
@@ -149,17 +155,17 @@ def test_file_made_with_the_installed_zip_renders_the_same_without_it(
     assert np.array_equal(picture, read_picture(without))
 
 
-def test_installed_shader_that_is_missing_gives_the_error(archive, tmp_path):
+def test_installed_shader_that_is_missing_gives_the_error(archive, tmp_path, kind):
     script = (
         INSTALL
         + """
 from pathlib import Path
 folder = Path(sys.modules[name].__file__).parent
-(folder / "osl" / "microbounce_conductor.osl").unlink()
+(folder / "osl" / "{shader}.osl").unlink()
 bpy.ops.mesh.primitive_cube_add()
 before = len(bpy.data.materials), len(bpy.data.texts), len(bpy.data.node_groups)
 try:
-    bpy.ops.microbounce.add_conductor_material()
+    bpy.ops.microbounce.add_material(kind={kind!r})
     message = ""
 except RuntimeError as error:
     message = str(error)
@@ -167,9 +173,11 @@ after = len(bpy.data.materials), len(bpy.data.texts), len(bpy.data.node_groups)
 finish({{"message": message, "folder": str(folder), "before": before, "after": after}})
 """
     )
-    result = run_blender(script.format(archive=str(archive)), tmp_path)
+    result = run_blender(
+        script.format(archive=str(archive), kind=kind, shader=KINDS[kind].shader), tmp_path
+    )
     assert result["folder"] in result["message"]
-    assert "microbounce_conductor.osl is missing. Reinstall the extension" in result["message"]
+    assert f"{KINDS[kind].shader}.osl is missing. Reinstall the extension" in result["message"]
     assert result["before"] == result["after"]
 
 
@@ -182,12 +190,12 @@ def install(archive):
     bpy.ops.extensions.package_install_files(
         filepath=archive, repo="user_default", enable_on_install=True
     )
-    operator = bpy.ops.microbounce.add_conductor_material.get_rna_type()
+    operator = bpy.ops.microbounce.add_material.get_rna_type()
     return [importlib.import_module(name + ".core").VERSION, operator.name]
 
 states = [install(archive) for archive in {archives!r}]
 bpy.ops.mesh.primitive_cube_add()
-bpy.ops.microbounce.add_conductor_material()
+bpy.ops.microbounce.add_material(kind="CONDUCTOR")
 node = next(n for n in bpy.context.object.active_material.node_tree.nodes if n.type == "GROUP")
 bpy.ops.preferences.addon_disable(module=name)
 left = [dir(bpy.ops.microbounce), [c for c in dir(bpy.types) if "MICROBOUNCE" in c]]
@@ -206,7 +214,7 @@ def test_installed_again_and_upgraded_in_folders_with_any_name(archive, tmp_path
     for file, old, new in (
         ("blender_manifest.toml", f'version = "{VERSION}"', 'version = "99.0.0"'),
         ("core/__init__.py", f'VERSION = "{VERSION}"', 'VERSION = "99.0.0"'),
-        ("ops/material.py", "Add Microbounce Conductor", "Add Newer Conductor"),
+        ("ops/material.py", "Add Microbounce Material", "Add Newer Material"),
     ):
         text = (newer / file).read_text(encoding="utf-8")
         assert old in text
@@ -219,8 +227,8 @@ def test_installed_again_and_upgraded_in_folders_with_any_name(archive, tmp_path
     script = UPGRADE.format(archives=[str(archive), str(archive), upgrade])
     environment = {key: str(folder) for key, folder in folders.items()}
     result = run_blender(script, tmp_path, environment, modules=False)
-    today = [VERSION, "Add Microbounce Conductor"]
-    assert result["states"] == [today, today, ["99.0.0", "Add Newer Conductor"]]
+    today = [VERSION, "Add Microbounce Material"]
+    assert result["states"] == [today, today, ["99.0.0", "Add Newer Material"]]
     assert str(folders["BLENDER_USER_RESOURCES"]) in result["from"]
     assert result["version"] == "99.0.0"
     assert result["bytecode"]

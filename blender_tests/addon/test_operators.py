@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators: what they change, when they refuse, and what they say."""
 
+from types import SimpleNamespace
+
 import pytest
 
+from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
 
@@ -13,9 +16,9 @@ def new_object(bpy, data, name="Thing"):
     return obj
 
 
-def is_microbounce(material):
+def is_microbounce(material, kind):
     return any(
-        node.bl_idname == "ShaderNodeGroup" and "microbounce_version" in node.node_tree
+        node.bl_idname == "ShaderNodeGroup" and node.node_tree.get("microbounce_kind") == kind
         for node in material.node_tree.nodes
     )
 
@@ -37,48 +40,77 @@ def linked_objects(bpy, tmp_path, with_slot=False):
     return linked
 
 
-def test_object_without_slots_gets_one(registered):
+def test_object_without_slots_gets_one(registered, kind):
     obj = new_object(registered, registered.data.meshes.new("Mesh"))
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
-    assert [is_microbounce(slot.material) for slot in obj.material_slots] == [True]
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
+    assert [is_microbounce(slot.material, kind) for slot in obj.material_slots] == [True]
 
 
-def test_only_the_active_slot_is_replaced(registered):
+def test_only_the_active_slot_is_replaced(registered, kind):
     obj = new_object(registered, registered.data.meshes.new("Mesh"))
     others = [registered.data.materials.new(name) for name in "abc"]
     for material in others:
         obj.data.materials.append(material)
     obj.active_material_index = 1
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
     first, second, third = (slot.material for slot in obj.material_slots)
     assert (first, third) == (others[0], others[2])
-    assert is_microbounce(second)
+    assert is_microbounce(second, kind)
     assert others[1].name in registered.data.materials, "the old material stays in the file"
 
 
-def test_empty_slot_and_object_slot_are_filled(registered):
+def test_empty_slot_and_object_slot_are_filled(registered, kind):
     obj = new_object(registered, registered.data.meshes.new("Mesh"))
     obj.data.materials.append(None)
     obj.material_slots[0].link = "OBJECT"
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
-    assert is_microbounce(obj.material_slots[0].material)
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
+    assert is_microbounce(obj.material_slots[0].material, kind)
     assert obj.data.materials[0] is None, "the slot belongs to the object"
 
 
-@pytest.mark.parametrize("kind", ["CURVE", "SURFACE", "FONT", "META"])
-def test_other_surfaces_get_it_too(registered, kind):
-    make = registered.data.metaballs.new if kind == "META" else registered.data.curves.new
-    obj = new_object(registered, make("Data") if kind == "META" else make("Data", kind))
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
-    assert is_microbounce(obj.active_material)
+@pytest.mark.parametrize("data_type", ["CURVE", "SURFACE", "FONT", "META"])
+def test_other_surfaces_get_it_too(registered, kind, data_type):
+    make = registered.data.metaballs.new if data_type == "META" else registered.data.curves.new
+    obj = new_object(registered, make("Data") if data_type == "META" else make("Data", data_type))
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
+    assert is_microbounce(obj.active_material, kind)
 
 
-def test_a_second_material_shares_the_group(registered):
+def test_a_second_material_shares_the_group(registered, kind):
     for name in "ab":
         new_object(registered, registered.data.meshes.new(name), name)
-        registered.ops.microbounce.add_conductor_material()
+        registered.ops.microbounce.add_material(kind=kind)
     assert len(registered.data.materials) == 2
     assert len(registered.data.node_groups) == 1
+
+
+def test_each_kind_has_a_group_of_its_own(registered):
+    for kind in KINDS:
+        new_object(registered, registered.data.meshes.new(kind), kind)
+        registered.ops.microbounce.add_material(kind=kind)
+    names = sorted(kind.name for kind in KINDS.values())
+    assert [group.name for group in registered.data.node_groups] == names
+    assert [material.name for material in registered.data.materials] == names
+
+
+def test_a_kind_that_is_not_made_is_refused(registered):
+    new_object(registered, registered.data.meshes.new("Mesh"))
+    with pytest.raises(TypeError, match="not found in"):
+        registered.ops.microbounce.add_material(kind="GLASS")
+
+
+def test_the_material_can_be_undone(registered, kind):
+    bpy = registered
+    bpy.context.preferences.edit.use_global_undo = True
+    new_object(bpy, bpy.data.meshes.new("Mesh"))
+    bpy.ops.ed.undo_push(message="Before")
+    assert bpy.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
+    bpy.ops.ed.undo_push(message="After")
+    bpy.ops.ed.undo()
+    assert not bpy.data.objects["Thing"].material_slots
+    assert not bpy.data.materials
+    bpy.ops.ed.redo()
+    assert is_microbounce(bpy.data.objects["Thing"].material_slots[0].material, kind)
 
 
 @pytest.mark.parametrize(
@@ -92,75 +124,75 @@ def test_a_second_material_shares_the_group(registered):
     ],
     ids=["none", "empty", "camera", "light", "volume"],
 )
-def test_unsuitable_objects_are_refused(registered, make, words):
+def test_unsuitable_objects_are_refused(registered, kind, make, words):
     make(registered)
-    assert not registered.ops.microbounce.add_conductor_material.poll()
+    assert not registered.ops.microbounce.add_material.poll()
     with pytest.raises(RuntimeError, match=words):
-        registered.ops.microbounce.add_conductor_material()
+        registered.ops.microbounce.add_material(kind=kind)
     assert not registered.data.materials
 
 
-def test_linked_object_is_refused(registered, tmp_path):
+def test_linked_object_is_refused(registered, kind, tmp_path):
     linked_objects(registered, tmp_path)
     with pytest.raises(RuntimeError, match="is linked from a library: make it local"):
-        registered.ops.microbounce.add_conductor_material()
+        registered.ops.microbounce.add_material(kind=kind)
 
 
-def test_local_object_with_linked_data(registered, tmp_path):
+def test_local_object_with_linked_data(registered, kind, tmp_path):
     linked = linked_objects(registered, tmp_path)
     new_object(registered, linked.data)
     with pytest.raises(RuntimeError, match="have no material slot: make the data local"):
-        registered.ops.microbounce.add_conductor_material()
+        registered.ops.microbounce.add_material(kind=kind)
 
 
-def test_local_object_with_linked_data_and_a_slot_overrides_it(registered, tmp_path):
+def test_local_object_with_linked_data_and_a_slot_overrides_it(registered, kind, tmp_path):
     linked = linked_objects(registered, tmp_path, with_slot=True)
     obj = new_object(registered, linked.data)
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
     assert obj.material_slots[0].link == "OBJECT"
-    assert is_microbounce(obj.material_slots[0].material)
+    assert is_microbounce(obj.material_slots[0].material, kind)
     assert obj.data.materials[0].name == "Library Material"
 
 
-def test_library_override_gets_it(registered, tmp_path):
+def test_library_override_gets_it(registered, kind, tmp_path):
     linked = linked_objects(registered, tmp_path, with_slot=True)
     obj = linked.override_create(remap_local_usages=True)
     registered.context.view_layer.objects.active = obj
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
-    assert is_microbounce(obj.material_slots[0].material)
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
+    assert is_microbounce(obj.material_slots[0].material, kind)
 
 
-def test_failure_is_an_error_and_leaves_the_object_alone(registered, monkeypatch):
+def test_failure_is_an_error_and_leaves_the_object_alone(registered, kind, monkeypatch):
     from addon.core.shader_source import ShaderSourceError
-    from addon.nodes import conductor
+    from addon.nodes import group
 
     def missing(name):
         raise ShaderSourceError(f"The shader file {name}.osl is missing. Reinstall the extension")
 
-    monkeypatch.setattr(conductor, "inlined_source", missing)
+    monkeypatch.setattr(group, "inlined_source", missing)
     obj = new_object(registered, registered.data.meshes.new("Mesh"))
     with pytest.raises(RuntimeError, match="Reinstall the extension"):
-        registered.ops.microbounce.add_conductor_material()
+        registered.ops.microbounce.add_material(kind=kind)
     assert not obj.material_slots
     assert not registered.data.materials
 
 
-def test_osl_off_warns_and_still_works(registered, capfd):
+def test_osl_off_warns_and_still_works(registered, kind, capfd):
     scene = registered.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.shading_system = False
     obj = new_object(registered, registered.data.meshes.new("Mesh"))
-    assert registered.ops.microbounce.add_conductor_material() == {"FINISHED"}
-    assert is_microbounce(obj.active_material)
+    assert registered.ops.microbounce.add_material(kind=kind) == {"FINISHED"}
+    assert is_microbounce(obj.active_material, kind)
     assert not scene.cycles.shading_system, "switching it on is for the user"
     assert "Open Shading Language is off" in capfd.readouterr().out
 
 
-def test_osl_on_says_nothing(registered, capfd):
+def test_osl_on_says_nothing(registered, kind, capfd):
     registered.context.scene.render.engine = "CYCLES"
     registered.context.scene.cycles.shading_system = True
     new_object(registered, registered.data.meshes.new("Mesh"))
-    registered.ops.microbounce.add_conductor_material()
+    registered.ops.microbounce.add_material(kind=kind)
     assert "Warning" not in capfd.readouterr().out
 
 
@@ -215,51 +247,60 @@ def editor(registered):
     area.ui_type = before
 
 
-def test_node_is_added_at_the_cursor_and_selected(editor):
+def test_node_is_added_at_the_cursor_and_selected(editor, kind):
     bpy, space = editor
     _, tree, output = surface_material("Metal")
     space.node_tree = tree
     space.cursor_location = (123, 45)
-    assert bpy.ops.microbounce.add_conductor_node() == {"FINISHED"}
+    assert bpy.ops.microbounce.add_node(kind=kind) == {"FINISHED"}
     (node,) = [node for node in tree.nodes if node != output]
     assert tuple(node.location) == pytest.approx((123, 45))
     assert tree.nodes.active == node
     assert [n.select for n in (node, output)] == [True, False]
-    assert node.node_tree.name == "Microbounce Conductor"
+    assert node.node_tree.name == KINDS[kind].name
 
 
-def test_node_is_refused_outside_a_material(editor):
+def test_node_is_refused_outside_a_material(editor, kind):
     bpy, space = editor
-    add = bpy.ops.microbounce.add_conductor_node
+    add = bpy.ops.microbounce.add_node
     space.node_tree = None
     with pytest.raises(RuntimeError, match="There is no material here: press New"):
-        add()
+        add(kind=kind)
     space.shader_type = "WORLD"
-    with pytest.raises(RuntimeError, match="A metal is for objects"):
-        add()
+    with pytest.raises(RuntimeError, match="These materials are for objects"):
+        add(kind=kind)
     space.shader_type = "OBJECT"
 
 
-def test_node_is_refused_outside_the_shader_editor(registered):
+def test_node_is_refused_outside_the_shader_editor(registered, kind):
     with pytest.raises(RuntimeError, match="This works in the Shader editor"):
-        registered.ops.microbounce.add_conductor_node()
+        registered.ops.microbounce.add_node(kind=kind)
 
 
-def test_group_cannot_hold_itself(editor):
-    from addon.nodes.conductor import conductor_group
+def test_group_cannot_hold_itself(editor, kind):
+    from addon.nodes.group import material_group
 
     bpy, space = editor
-    group = conductor_group()
+    group = material_group(kind)
     space.node_tree = group
     with pytest.raises(RuntimeError, match="cannot hold itself"):
-        bpy.ops.microbounce.add_conductor_node()
+        bpy.ops.microbounce.add_node(kind=kind)
 
 
 def test_operators_are_undoable_and_described(registered):
-    for name in ("add_conductor_material", "add_conductor_node", "enable_osl"):
+    for name in ("add_material", "add_node", "enable_osl"):
         operator = getattr(registered.ops.microbounce, name)
         rna = operator.get_rna_type()
         assert operator.bl_options >= {"REGISTER", "UNDO"}
         assert rna.description
         assert not rna.description.endswith(".")
-        assert rna.name == rna.name.title() or "Microbounce" in rna.name
+        assert rna.name == rna.name.title()
+
+
+@pytest.mark.parametrize("name", ["MICROBOUNCE_OT_add_material", "MICROBOUNCE_OT_add_node"])
+def test_tooltips_name_the_kind(registered, name, kind):
+    cls = getattr(registered.types, name)
+    text = cls.description(registered.context, SimpleNamespace(kind=kind))
+    made = KINDS[kind]
+    assert made.name in text or made.surface.lower() in text
+    assert not text.endswith(".")

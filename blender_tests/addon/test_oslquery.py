@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's own Python can import `oslquery`, and there Cycles fills the script node by itself."""
 
-from addon.core.parameters import CONDUCTOR
+from addon.core.kinds import KINDS
 from blender_tests.addon.support import run_blender
 
 # The bundled packages of a wheel are those of the application; a wheel just leaves them aside.
@@ -15,9 +15,9 @@ if {bundled}:
     sys.path.insert(0, str(packages))
     import OpenImageIO, oslquery
 bpy.context.scene.render.engine = "CYCLES"
-from addon.nodes.conductor import conductor_group
+from addon.nodes.group import material_group
 
-(node,) = [n for n in conductor_group().nodes if n.bl_idname == "ShaderNodeScript"]
+(node,) = [n for n in material_group({kind!r}).nodes if n.bl_idname == "ShaderNodeScript"]
 
 def sockets(collection):
     return [[s.identifier, s.name, s.bl_idname, s.is_linked] for s in collection]
@@ -26,9 +26,9 @@ finish([sockets(node.inputs), sockets(node.outputs), node.bytecode_hash, len(nod
 """
 
 
-def test_script_node_is_the_same_with_and_without_oslquery(tmp_path):
-    with_it = run_blender(SCRIPT.format(bundled=True), tmp_path)
-    without = run_blender(SCRIPT.format(bundled=False), tmp_path)
+def test_script_node_is_the_same_with_and_without_oslquery(kind, tmp_path):
+    with_it = run_blender(SCRIPT.format(kind=kind, bundled=True), tmp_path)
+    without = run_blender(SCRIPT.format(kind=kind, bundled=False), tmp_path)
     assert with_it == without
-    assert [socket[0] for socket in with_it[0]] == [p.identifier for p in CONDUCTOR]
+    assert [socket[0] for socket in with_it[0]] == [p.identifier for p in KINDS[kind].parameters]
     assert all(socket[3] for socket in with_it[0] + with_it[1])

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
 
@@ -14,7 +15,7 @@ class Record:
     def __init__(self):
         import bpy
 
-        self.texts, self.operators = [], []
+        self.texts, self.operators, self.buttons, self.menus = [], [], [], []
         self.label_icons = bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"]
 
     def box(self):
@@ -34,6 +35,17 @@ class Record:
         module, name = idname.split(".")
         assert name in dir(getattr(bpy.ops, module))
         self.operators.append(name)
+        self.buttons.append(SimpleNamespace(kind=""))
+        return self.buttons[-1]
+
+    def menu(self, name, icon="NONE"):
+        import bpy
+
+        assert icon in self.label_icons.enum_items
+        self.menus.append(getattr(bpy.types, name))
+
+    def separator(self):
+        pass
 
     @property
     def text(self):
@@ -86,14 +98,14 @@ def sun_lit(registered):
     return bpy
 
 
-def exact_material():
-    from addon.nodes.conductor import conductor_material
+def exact_material(kind):
+    from addon.nodes.group import new_material
 
-    return conductor_material("Exact", Quality="Exact")
+    return new_material(kind, "Exact", Quality="Exact")
 
 
-def test_material_panel_names_lights_that_exact_misses(sun_lit):
-    material = exact_material()
+def test_material_panel_names_lights_that_exact_misses(sun_lit, kind):
+    material = exact_material(kind)
     sun_lit.context.object.data.materials.append(material)
     record = draw(sun_lit, "MICROBOUNCE_PT_material", material=material)
     assert "Open Shading Language is on" in record.text
@@ -103,22 +115,22 @@ def test_material_panel_names_lights_that_exact_misses(sun_lit):
     assert "Exact" not in draw(sun_lit, "MICROBOUNCE_PT_material", material=material).text
 
 
-def test_shader_editor_looks_at_the_material_it_shows(sun_lit):
+def test_shader_editor_looks_at_the_material_it_shows(sun_lit, kind):
     panel = "MICROBOUNCE_PT_shader_editor"
     other, _, _ = surface_material("Other")
     sun_lit.context.object.data.materials.append(other)
-    pinned = draw(sun_lit, panel, space_data=node_editor(exact_material()))
+    pinned = draw(sun_lit, panel, space_data=node_editor(exact_material(kind)))
     assert "'Sun' (angle 0)" in pinned.text
     assert "Sun" not in draw(sun_lit, panel, space_data=node_editor(other)).text
     for shown in (None, sun_lit.data.worlds.new("World")):
         record = draw(sun_lit, panel, space_data=node_editor(shown))
         assert "Sun" not in record.text
-        assert record.operators == ["add_conductor_node"]
+        assert record.operators == ["add_node"] * len(KINDS)
     assert draw(sun_lit, panel, space_data=node_editor(tree_type="GeometryNodeTree")) is None
 
 
-def test_pinned_material_without_an_active_object(sun_lit):
-    material = exact_material()
+def test_pinned_material_without_an_active_object(sun_lit, kind):
+    material = exact_material(kind)
     sun_lit.context.view_layer.objects.active = None
     record = draw(sun_lit, "MICROBOUNCE_PT_material", object=None, material=material)
     assert "'Sun' (angle 0)" in record.text
@@ -146,13 +158,38 @@ def test_where_the_shader_does_not_run_the_panel_says_why(sun_lit, engine, osl, 
         engine = "BLENDER_EEVEE"
     scene.cycles.shading_system = osl
     scene.render.engine = engine
-    record = draw(sun_lit, "MICROBOUNCE_PT_material", material=exact_material())
+    record = draw(sun_lit, "MICROBOUNCE_PT_material", material=exact_material("CONDUCTOR"))
     assert words in record.text
     assert "Sun" not in record.text, "the fallback finds every light"
-    assert record.operators == [*offers, "add_conductor_material"]
+    assert record.operators == [*offers, *["add_material"] * len(KINDS)]
 
 
 def test_without_the_cycles_add_on(registered):
     scene = SimpleNamespace(render=SimpleNamespace(engine="BLENDER_WORKBENCH"))
     record = draw(registered, "MICROBOUNCE_PT_material", object=object(), scene=scene)
     assert "The render engine is not Cycles" in record.text
+
+
+def test_panels_and_menu_offer_each_kind(sun_lit):
+    from addon.ui import menus
+
+    for panel in ("MICROBOUNCE_PT_material", "MICROBOUNCE_PT_shader_editor"):
+        record = draw(sun_lit, panel, space_data=node_editor())
+        assert [button.kind for button in record.buttons] == list(KINDS)
+    record = Record()
+    space = SimpleNamespace(shader_type="OBJECT")
+    menus.draw_add_menu(SimpleNamespace(layout=record), SimpleNamespace(space_data=space))
+    (menu,) = record.menus
+    assert menu.bl_label == "Microbounce"
+    menus.MICROBOUNCE_MT_add.draw(SimpleNamespace(layout=record), None)
+    assert record.operators == ["add_node"] * len(KINDS)
+    assert [button.kind for button in record.buttons] == list(KINDS)
+
+
+def test_the_menu_is_for_materials_of_objects(sun_lit):
+    from addon.ui import menus
+
+    record = Record()
+    space = SimpleNamespace(shader_type="WORLD")
+    menus.draw_add_menu(SimpleNamespace(layout=record), SimpleNamespace(space_data=space))
+    assert not record.menus

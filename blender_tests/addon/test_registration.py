@@ -42,8 +42,10 @@ finish(states)
     assert after == clean
     assert second == first
     assert first[0] == clean[0], "the extension needs no handlers"
-    assert {"MICROBOUNCE_PT_material", "MICROBOUNCE_PT_shader_editor"} <= set(first[1])
-    assert first[2] == ["add_conductor_material", "add_conductor_node", "enable_osl"]
+    assert {"MICROBOUNCE_MT_add", "MICROBOUNCE_PT_material", "MICROBOUNCE_PT_shader_editor"} <= set(
+        first[1]
+    )
+    assert first[2] == ["add_material", "add_node", "enable_osl"]
     assert set(first[3]) - set(clean[3]) == {"draw_add_menu"}
 
 

@@ -4,6 +4,7 @@
 import pytest
 
 from addon.core import shader_source
+from addon.core.kinds import KINDS
 from addon.core.shader_source import ShaderSourceError, inlined_source, shader_directory
 
 
@@ -34,9 +35,9 @@ def test_headers_that_include_each_other_end(folder):
     assert inlined_source("toy", folder).count("float one()") == 1
 
 
-def test_the_conductor_has_no_include_left():
-    source = inlined_source("microbounce_conductor")
-    assert "shader microbounce_conductor" in source
+def test_shaders_have_no_include_left(kind):
+    source = inlined_source(KINDS[kind].shader)
+    assert f"shader {KINDS[kind].shader}" in source
     left = [line for line in source.splitlines() if line.lstrip().startswith("#include")]
     assert set(left) <= {'#include "stdcycles.h"'}, "Cycles itself provides just this one"
 

@@ -7,13 +7,18 @@ import bpy
 import numpy as np
 import pytest
 
-from addon.nodes.conductor import conductor_group, has_bytecode
+from addon.core.kinds import KINDS
+from addon.nodes.group import has_bytecode, material_group
 from blender_tests.oracle import sphere
-from scenes import variants
+from scenes import fixtures, render, variants
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-NAMES = ("showcase", "furnace_conductor", "sphere_sun_conductor")
-FIXTURES = NAMES[1:]
+SPHERES = [f"{scene}_{kind.lower()}" for kind in KINDS for scene in ("furnace", "sphere_sun")]
+SUNS = [f"sphere_sun_{kind.lower()}" for kind in KINDS]
+FIXTURES = [*SPHERES, "slab_dielectric"]
+NAMES = ["showcase", *FIXTURES]
+# Of float32 rotations and positions.
+ROUNDING = 1e-6
 
 
 def opened(name: str) -> bpy.types.Scene:
@@ -30,12 +35,11 @@ def test_file_is_small(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_file_holds_the_current_shader(name):
     opened(name)
-    groups = {metal.node.node_tree for metal in variants.find_metals()}
-    assert len(groups) == 1
-    group = groups.pop()
+    kind = "CONDUCTOR" if name == "showcase" else name.rpartition("_")[2].upper()
+    (group,) = {material.node.node_tree for material in variants.find_materials()}
     assert has_bytecode(group)
     # It returns the file's own group only where its source and parameters are today's.
-    assert conductor_group() == group, "build the scenes anew with 'make scenes'"
+    assert material_group(kind) == group, "build the scenes anew with 'make scenes'"
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -64,7 +68,11 @@ def test_nothing_biases_the_pixels(name):
     assert cycles.blur_glossy == 0.0
 
 
-@pytest.mark.parametrize("name", FIXTURES)
+def test_every_file_is_tested():
+    assert {path.stem for path in SCENES.glob("*.blend")} == set(NAMES)
+
+
+@pytest.mark.parametrize("name", SPHERES)
 def test_camera_is_the_oracles(name):
     scene = opened(name)
     camera = scene.camera
@@ -76,19 +84,39 @@ def test_camera_is_the_oracles(name):
     axes = np.array(camera.matrix_world.to_3x3())
     # Columns: the picture's right and up, and the direction to the viewer; float32 rounding.
     wanted = np.column_stack([(1, 0, 0), (0, 0, 1), sphere.VIEW_DIRECTION])
-    np.testing.assert_allclose(axes, wanted, atol=1e-6)
+    np.testing.assert_allclose(axes, wanted, atol=ROUNDING)
 
 
-def test_sun_is_the_oracles():
-    opened("sphere_sun_conductor")
+def towards_sun() -> np.ndarray:
+    """The unit vector towards the open file's sun, which is checked to have no size."""
+    bpy.context.view_layer.update()
     sun = bpy.data.objects["Sun"]
     assert sun.data.energy == 1.0
     assert sun.data.angle == 0.0
-    towards = np.array(sun.matrix_world.to_3x3())[:, 2]
-    np.testing.assert_allclose(towards, sphere.SUN_DIRECTION, atol=1e-6)  # float32 rounding
+    return np.array(sun.matrix_world.to_3x3())[:, 2]
+
+
+@pytest.mark.parametrize("name", SUNS)
+def test_sun_is_the_oracles_and_can_be_moved_behind(name):
+    opened(name)
+    np.testing.assert_allclose(towards_sun(), sphere.SUN_DIRECTION, atol=ROUNDING)
+    fixtures.aim_sun(fixtures.BACK_SUN)
+    behind = np.array(fixtures.BACK_SUN) / np.linalg.norm(fixtures.BACK_SUN)
+    np.testing.assert_allclose(towards_sun(), behind, atol=ROUNDING)
+    assert behind @ sphere.VIEW_DIRECTION < 0.0
 
 
 @pytest.mark.parametrize("name", FIXTURES)
+def test_light_meets_the_surface_once(name):
+    scene = opened(name)
+    (solid,) = [thing for thing in scene.objects if thing.type == "MESH"]
+    assert solid.visible_camera
+    others = ("diffuse", "glossy", "transmission", "volume_scatter", "shadow")
+    assert not [ray for ray in others if getattr(solid, f"visible_{ray}")]
+    assert scene.cycles.max_bounces == ("furnace" in name)
+
+
+@pytest.mark.parametrize("name", SPHERES)
 def test_sphere_is_smooth_round_and_of_radius_one(name):
     opened(name)
     graph = bpy.context.evaluated_depsgraph_get()
@@ -104,9 +132,70 @@ def test_sphere_is_smooth_round_and_of_radius_one(name):
     np.testing.assert_allclose(normals, points[corners], atol=1e-4)
 
 
+def test_sphere_can_be_turned_inside_out():
+    opened("furnace_dielectric")
+    for inside, sign in ((True, -1.0), (False, 1.0)):
+        fixtures.turn_inside_out(inside)
+        graph = bpy.context.evaluated_depsgraph_get()
+        mesh = bpy.data.objects["Sphere"].evaluated_get(graph).to_mesh()
+        normal = np.array(mesh.corner_normals[1000].vector)
+        point = np.array(mesh.vertices[mesh.loops[1000].vertex_index].co)
+        np.testing.assert_allclose(normal, sign * point, atol=1e-4)
+
+
+@pytest.mark.parametrize("inside", [False, True])
+@pytest.mark.parametrize("name", [name for name in SPHERES if name.startswith("furnace")])
+def test_what_leaves_a_lossless_surface_is_counted_once(name, inside, tmp_path):
+    """Exact follows each path to its one exit, so that any loss or gain is the scene's."""
+    scene = opened(name)
+    fixtures.turn_inside_out(inside)
+    (material,) = variants.find_materials()
+    for identifier, value in {"Roughness": 1.0, "Quality": "Exact", "Tolerance": 0.0}.items():
+        material.set(identifier, value)
+    material.set("MaxBounces", 64)
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    passes, _ = render.render_passes(tmp_path / "furnace.exr", 8, 0, tmp_path / "log")
+    # Sums of ones in float32, also outside the sphere; no walk has 64 bounces.
+    np.testing.assert_allclose(render.combined(passes), 1.0, atol=1e-5)
+
+
+def test_light_from_behind_comes_through_glass_alone(tmp_path):
+    means = {}
+    for kind in KINDS:
+        scene = opened(f"sphere_sun_{kind.lower()}")
+        fixtures.aim_sun(fixtures.BACK_SUN)
+        (material,) = variants.find_materials()
+        material.set("Roughness", 0.7)
+        scene.render.resolution_x = scene.render.resolution_y = 16
+        passes, _ = render.render_passes(tmp_path / "sun.exr", 16, 0, tmp_path / "log")
+        means[kind] = render.combined(passes)[6:10, 6:10].mean()  # facets that face the camera
+    assert means["CONDUCTOR"] == means["DIFFUSE"] == 0.0
+    assert means["DIELECTRIC"] > 0.05
+
+
+def test_slab_fills_the_picture_and_is_seen_at_many_angles():
+    scene = opened("slab_dielectric")
+    slab, camera = bpy.data.objects["Slab"], scene.camera
+    corners = [camera.matrix_world @ corner for corner in camera.data.view_frame(scene=scene)]
+    eye = camera.matrix_world.translation
+    np.testing.assert_allclose(eye, fixtures.SLAB_CAMERA, atol=ROUNDING)
+    for corner in corners:
+        hit, place, normal, _ = slab.ray_cast(eye, corner - eye)
+        assert hit
+        np.testing.assert_allclose((*normal, place.z), (0.0, 0.0, 1.0, 0.0), atol=1e-5)
+    # The middle column: half the camera's angle above and below its axis.
+    down = np.degrees(np.arctan2(-fixtures.SLAB_VIEW[2], fixtures.SLAB_VIEW[1]))
+    angles = [90.0 - down - side * fixtures.SLAB_ANGLE / 2 for side in (1, -1)]
+    assert angles == pytest.approx([31.3, 81.3], abs=0.1)
+    assert np.degrees(camera.data.angle) == pytest.approx(fixtures.SLAB_ANGLE)
+    towards = np.array(fixtures.SLAB_SUN) / np.linalg.norm(fixtures.SLAB_SUN)
+    np.testing.assert_allclose(towards_sun(), towards, atol=ROUNDING)
+    assert towards[2] < 0.0
+
+
 def test_showcase_tells_its_metals_apart():
     scene = opened("showcase")
-    metals = variants.find_metals()
+    metals = variants.find_materials()
     assert [metal.index for metal in metals] == list(range(1, len(metals) + 1))
     assert len(metals) >= 3
     assert any(metal.get("Anisotropy") > 0 for metal in metals)

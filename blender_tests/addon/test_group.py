@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The node group: sockets against the parameters, reuse, and failures that leave nothing behind."""
+"""Node groups: sockets against the parameters, reuse, and failures that leave nothing behind."""
 
 import hashlib
 import re
@@ -9,14 +9,19 @@ from dataclasses import replace
 import pytest
 
 from addon.core import VERSION
+from addon.core.kinds import KINDS
 from addon.core.oso import oso_parameters
-from addon.core.parameters import CONDUCTOR
 from addon.core.shader_source import ShaderSourceError, inlined_source
 from blender_tests.addon.support import ROOT
 
-# What GROUP_REVISION stands for. Where its test fails, raise it in addon/nodes/conductor.py
-# and replace the digest: files then take the new group, and the scenes are to be built anew.
-REVISION = (1, "1d6f9ad98221e4e9")
+# What GROUP_REVISION stands for. Where its test fails, raise it in addon/nodes/group.py and replace
+# the digests: files then take the new groups, and the scenes are to be built anew.
+REVISION = 2
+DIGESTS = {
+    "CONDUCTOR": "57358195a1ccdcb4",
+    "DIELECTRIC": "070b1aef8714961a",
+    "DIFFUSE": "411695ea98b5bf81",
+}
 
 # Blender stores sockets as 32-bit floats; so do compiled shaders.
 FLOAT32 = 1e-6
@@ -32,10 +37,10 @@ SOCKETS = {
 
 
 @pytest.fixture
-def conductor(empty_file):
-    from addon.nodes import conductor
+def group_module(empty_file):
+    from addon.nodes import group
 
-    return conductor
+    return group
 
 
 def numbers(value):
@@ -47,14 +52,14 @@ def contents(bpy):
     return [sorted(block.name for block in collection) for collection in blocks]
 
 
-def test_shader_declares_the_parameters(conductor):
+def test_shader_declares_the_parameters(group_module, kind):
     from addon.nodes.script import compile_source
 
-    declared = oso_parameters(compile_source(inlined_source(conductor.SHADER_NAME)))
+    declared = oso_parameters(compile_source(inlined_source(KINDS[kind].shader)))
     inputs = [p for p in declared if not p.output]
-    assert [p.name for p in inputs] == [p.identifier for p in CONDUCTOR]
+    assert [p.name for p in inputs] == [p.identifier for p in KINDS[kind].parameters]
     types = {"COLOR": "color", "FLOAT": "float", "INT": "int", "NORMAL": "normal"}
-    for shader, parameter in zip(inputs, CONDUCTOR, strict=True):
+    for shader, parameter in zip(inputs, KINDS[kind].parameters, strict=True):
         assert shader.type == types.get(parameter.kind, "vector"), shader.name
         if not shader.computed:
             assert list(shader.default) == pytest.approx(numbers(parameter.default), rel=FLOAT32)
@@ -64,12 +69,12 @@ def test_shader_declares_the_parameters(conductor):
     ]
 
 
-def test_sockets_are_the_parameters(conductor):
-    group = conductor.conductor_group()
+def test_sockets_are_the_parameters(group_module, kind):
+    group = group_module.material_group(kind)
     sockets = {item.name: item for item in group.interface.items_tree if item.item_type == "SOCKET"}
     assert sockets.pop("BSDF").socket_type == "NodeSocketShader"
-    assert set(sockets) == {parameter.label for parameter in CONDUCTOR}
-    for parameter in CONDUCTOR:
+    assert set(sockets) == {parameter.label for parameter in KINDS[kind].parameters}
+    for parameter in KINDS[kind].parameters:
         socket = sockets[parameter.label]
         assert socket.in_out == "INPUT"
         assert socket.socket_type == SOCKETS[parameter.kind]
@@ -83,23 +88,23 @@ def test_sockets_are_the_parameters(conductor):
             assert limits == pytest.approx(parameter.legal, rel=FLOAT32)
 
 
-def test_script_node_carries_source_and_bytecode(conductor):
-    group = conductor.conductor_group()
+def test_script_node_carries_source_and_bytecode(group_module, kind):
+    group = group_module.material_group(kind)
     (script,) = [node for node in group.nodes if node.bl_idname == "ShaderNodeScript"]
-    assert script.script.as_string() == inlined_source(conductor.SHADER_NAME)
+    assert script.script.as_string() == inlined_source(KINDS[kind].shader)
     assert script.bytecode.startswith("OpenShadingLanguage")
     assert script.bytecode_hash
-    assert [s.identifier for s in script.inputs] == [p.identifier for p in CONDUCTOR]
+    assert [s.identifier for s in script.inputs] == [p.identifier for p in KINDS[kind].parameters]
     assert all(socket.is_linked for socket in script.inputs)
     assert [s.identifier for s in script.outputs] == ["BSDF", "Active"]
     (factor,) = [link.to_socket for link in script.outputs["Active"].links]
     assert factor.default_value == 0.0, "the fallback would not show without OSL"
 
 
-def test_bytecode_names_no_folder_and_is_reproducible(conductor):
+def test_bytecode_names_no_folder_and_is_reproducible(group_module, kind):
     from addon.nodes.script import compile_source
 
-    source = inlined_source(conductor.SHADER_NAME)
+    source = inlined_source(KINDS[kind].shader)
     bytecode = compile_source(source)
     assert '%filename{"shader.osl"}' in bytecode
     names = re.findall(r'%filename\{"([^"]*)"', bytecode)
@@ -108,12 +113,14 @@ def test_bytecode_names_no_folder_and_is_reproducible(conductor):
     assert compile_source(source) == bytecode
 
 
-def test_group_is_stamped_and_reused(conductor, empty_file):
-    group = conductor.conductor_group()
-    assert group[conductor.VERSION_KEY] == VERSION
+def test_group_is_stamped_and_reused(group_module, kind, empty_file):
+    group = group_module.material_group(kind)
+    assert group[group_module.VERSION_KEY] == VERSION
     assert VERSION in group.description
-    assert conductor.conductor_group() == group
-    assert contents(empty_file)[:2] == [["Microbounce Conductor"], ["microbounce_conductor.osl"]]
+    assert group_module.material_group(kind) == group
+    made = KINDS[kind]
+    assert group[group_module.KIND_KEY] == kind
+    assert contents(empty_file)[:2] == [[made.name], [f"{made.shader}.osl"]]
 
 
 def described(group):
@@ -140,42 +147,45 @@ def described(group):
         yield *(end.name for end in ends), link.from_socket.name, link.to_socket.identifier
 
 
-def test_group_revision_stands_for_what_is_built(conductor):
+def test_group_revision_stands_for_what_is_built(group_module, kind):
     # Input sockets of a group have identifiers that Blender numbers; names are stable there.
-    text = "\n".join(repr(line) for line in described(conductor.conductor_group()))
+    text = "\n".join(repr(line) for line in described(group_module.material_group(kind)))
     digest = hashlib.sha256(text.encode()).hexdigest()[:16]
-    assert (conductor.GROUP_REVISION, digest) == REVISION, f"built differently:\n{text}"
+    assert (group_module.GROUP_REVISION, digest) == (REVISION, DIGESTS[kind]), (
+        f"built differently:\n{text}"
+    )
 
 
-@pytest.mark.parametrize("name", ["VERSION", "GROUP_REVISION", "CONDUCTOR"])
-def test_stamp_changes_with_all_that_the_group_is_made_from(conductor, monkeypatch, name):
-    old = conductor.conductor_group()
-    if name == "CONDUCTOR":
-        changed = replace(CONDUCTOR[5], tooltip="Another tooltip")
-        value = (*CONDUCTOR[:5], changed, *CONDUCTOR[6:])
+@pytest.mark.parametrize("name", ["VERSION", "GROUP_REVISION", "parameters"])
+def test_stamp_changes_with_all_that_the_group_is_made_from(group_module, kind, monkeypatch, name):
+    old = group_module.material_group(kind)
+    if name == "parameters":
+        first, *others = KINDS[kind].parameters
+        changed = (replace(first, tooltip="Another tooltip"), *others)
+        monkeypatch.setitem(KINDS, kind, replace(KINDS[kind], parameters=changed))
     else:
-        value = {"VERSION": "0.1.1", "GROUP_REVISION": conductor.GROUP_REVISION + 1}[name]
-    monkeypatch.setattr(conductor, name, value)
-    assert conductor.conductor_group() != old
+        value = {"VERSION": "0.1.1", "GROUP_REVISION": group_module.GROUP_REVISION + 1}[name]
+        monkeypatch.setattr(group_module, name, value)
+    assert group_module.material_group(kind) != old
 
 
-def test_group_of_another_version_is_left_alone(conductor, empty_file):
-    old = conductor.conductor_group()
-    old[conductor.STAMP_KEY] = "0123456789abcdef"
-    new = conductor.conductor_group()
+def test_group_of_another_version_is_left_alone(group_module, kind, empty_file):
+    old = group_module.material_group(kind)
+    old[group_module.STAMP_KEY] = "0123456789abcdef"
+    new = group_module.material_group(kind)
     assert new != old
     assert len(empty_file.data.node_groups) == 2
 
 
-def test_material_takes_values(conductor):
-    material = conductor.conductor_material(
-        "Gold", BaseColor=(1, 0.8, 0.3), Roughness=0.8, Quality="Exact", MaxBounces=5
-    )
+def test_material_takes_values(group_module, kind):
+    color = KINDS[kind].parameters[0]
+    values = {color.identifier: (1, 0.8, 0.3), "Roughness": 0.8}
+    material = group_module.new_material(kind, "New", Quality="Exact", BounceOnly=5, **values)
     (node,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup"]
-    assert list(node.inputs["Base Color"].default_value) == pytest.approx([1, 0.8, 0.3, 1])
+    assert list(node.inputs[color.label].default_value) == pytest.approx([1, 0.8, 0.3, 1])
     assert node.inputs["Roughness"].default_value == pytest.approx(0.8)
     assert node.inputs["Quality"].default_value == 3
-    assert node.inputs["Max Bounces"].default_value == 5
+    assert node.inputs["Bounce Only"].default_value == 5
     assert node.outputs["BSDF"].links[0].to_node.bl_idname == "ShaderNodeOutputMaterial"
 
 
@@ -183,10 +193,10 @@ def test_material_takes_values(conductor):
     ("values", "error"),
     [({"Rough": 1}, TypeError), ({"Roughness": 2}, ValueError), ({"Walks": 1.5}, TypeError)],
 )
-def test_material_with_bad_values_is_not_made(conductor, empty_file, values, error):
+def test_material_with_bad_values_is_not_made(group_module, kind, empty_file, values, error):
     before = contents(empty_file)
     with pytest.raises(error, match=next(iter(values))):
-        conductor.conductor_material("Bad", **values)
+        group_module.new_material(kind, "Bad", **values)
     assert contents(empty_file) == before
 
 
@@ -199,17 +209,17 @@ def test_material_with_bad_values_is_not_made(conductor, empty_file, values, err
     ],
 )
 def test_a_failure_leaves_the_file_as_it_was(
-    conductor, empty_file, monkeypatch, source, error, words
+    group_module, kind, empty_file, monkeypatch, source, error, words
 ):
     def damaged(name):
         if source is None:
             raise ShaderSourceError(f"{name}.osl is missing. Reinstall the extension")
         return source
 
-    monkeypatch.setattr(conductor, "inlined_source", damaged)
+    monkeypatch.setattr(group_module, "inlined_source", damaged)
     before = contents(empty_file)
     with pytest.raises((RuntimeError, ValueError)) as caught:
-        conductor.conductor_material("Bad")
+        group_module.new_material(kind, "Bad")
     assert type(caught.value).__name__ == error
     assert words in str(caught.value)
     assert contents(empty_file) == before
@@ -224,37 +234,39 @@ def test_compiler_message_names_line_and_cause(empty_file):
     assert tempfile.gettempdir() not in str(caught.value)
 
 
-def test_unwritable_temporary_folder_names_remedy(conductor, empty_file, monkeypatch, tmp_path):
+def test_unwritable_temporary_folder_names_remedy(
+    group_module, kind, empty_file, monkeypatch, tmp_path
+):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
     before = contents(empty_file)
     with pytest.raises(RuntimeError, match=r"temporary folder.*gone.*TMPDIR"):
-        conductor.conductor_group()
+        group_module.material_group(kind)
     assert contents(empty_file) == before
 
 
-def test_nothing_is_written_beside_the_extension(conductor):
+def test_nothing_is_written_beside_the_extension(group_module, kind):
     def files():
         found = [*(ROOT / "addon").rglob("*"), *(ROOT / "osl").rglob("*")]
         return {(p, p.stat().st_mtime_ns) for p in found if "__pycache__" not in p.parts}
 
     before = files()
-    conductor.conductor_material("Metal")
+    group_module.new_material(kind, "New")
     assert files() == before
 
 
 def test_without_a_compiler_the_group_is_made_and_completed_later(
-    conductor, empty_file, monkeypatch
+    group_module, kind, empty_file, monkeypatch
 ):
     from addon.nodes import script
 
     with monkeypatch.context() as patch:
         patch.setattr(script, "osl_compiler_available", lambda: False)
-        material = conductor.conductor_material("Metal")
-        group = conductor.conductor_group()
-        assert not conductor.has_bytecode(group)
-    completed = conductor.conductor_group()
-    assert conductor.has_bytecode(completed)
-    assert completed.name == conductor.GROUP_NAME
+        material = group_module.new_material(kind, "New")
+        group = group_module.material_group(kind)
+        assert not group_module.has_bytecode(group)
+    completed = group_module.material_group(kind)
+    assert group_module.has_bytecode(completed)
+    assert completed.name == KINDS[kind].name
     (node,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup"]
     assert node.node_tree == completed
     assert len(empty_file.data.node_groups) == 1
