@@ -132,8 +132,3 @@ def use_cycles_multiscatter(materials: list[Material]) -> None:
 def _show(material: bpy.types.Material, node: bpy.types.Node) -> None:
     output = material.node_tree.get_output_node("CYCLES")
     material.node_tree.links.new(node.outputs[0], output.inputs["Surface"])
-
-
-# Older names, of when there were metals alone.
-Metal = Material
-find_metals = find_materials

@@ -40,10 +40,10 @@ class Widths:
         }
 
 
-def open_scene(name: str) -> variants.Metal:
+def open_scene(name: str) -> variants.Material:
     """Open scenes/`name`.blend and return its metal (the first, where there are several)."""
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{name}.blend"))
-    return variants.find_metals()[0]
+    return variants.find_materials()[0]
 
 
 def picture(samples: int, seed: int = 0) -> np.ndarray:

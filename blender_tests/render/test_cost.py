@@ -17,7 +17,7 @@ ROUNDS = 5
 def test_walk_costs_at_most_twice_single(report) -> None:
     """Median over interleaved rounds of the ratio of neighbouring times, warm-up excluded."""
     pictures.open_scene("showcase")
-    metals = variants.find_metals()
+    metals = variants.find_materials()
     times = time_samples(
         bpy.context.scene,
         {

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from addon.core.parameters import CONDUCTOR
-from addon.nodes.conductor import conductor_material
+from addon.nodes.group import new_material
 from scenes import common
 
 from . import pictures
@@ -36,7 +36,7 @@ def scene_with(linked: dict[str, object], **values: object) -> None:
     scene = common.start_scene((SIZE, SIZE), samples=8)
     common.set_world(scene, (1.0, 1.0, 1.0))
     common.add_front_camera(scene)
-    material = conductor_material("Metal", **values)
+    material = new_material("CONDUCTOR", "Metal", **values)
     mesh = bpy.data.meshes.new("Disc")
     mesh.from_pydata([(-2, -1, -2), (2, -1, -2), (2, 1, 2), (-2, 1, 2)], [], [(0, 1, 2, 3)])
     mesh.materials.append(material)

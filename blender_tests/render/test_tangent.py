@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 
-from addon.nodes.conductor import conductor_material
+from addon.nodes.group import new_material
 from scenes import common
 
 from . import pictures
@@ -56,8 +56,8 @@ def test_default_tangent_is_cycles(make, scale: float, rotation: float) -> None:
     scene.cycles.max_bounces = 0
     camera = common.add_front_camera(scene)
     values = {"Roughness": 0.6, "Anisotropy": 0.9, "Rotation": rotation, "Quality": "Single"}
-    metal = conductor_material("Metal", **values)
-    native = conductor_material("Native", **values)
+    metal = new_material("CONDUCTOR", "Metal", **values)
+    native = new_material("CONDUCTOR", "Native", **values)
     group = native.node_tree.nodes["Microbounce Conductor"]
     metallic = native.node_tree.nodes.new("ShaderNodeBsdfMetallic")
     metallic.distribution = "GGX"

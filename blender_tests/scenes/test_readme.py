@@ -1,30 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's table of parameters against the one specification of them."""
+"""The README's tables of parameters against the one specification of them."""
 
 from pathlib import Path
 
 import pytest
 
-from addon.core.parameters import CONDUCTOR
+from addon.core.kinds import KINDS
 
 README = Path(__file__).resolve().parents[2] / "README.md"
-ROWS = {
-    cells[0]: cells[1:]
-    for line in README.read_text(encoding="utf-8").splitlines()
-    if line.startswith("| ") and len(cells := [cell.strip() for cell in line.split("|")[1:-1]]) == 4
-}
+ALL = "all three"
 SURFACES_OWN = ("NORMAL", "TANGENT")
 
 
-@pytest.mark.parametrize("parameter", CONDUCTOR, ids=lambda parameter: parameter.identifier)
-def test_parameter_is_described_as_it_is(parameter) -> None:
+def tables() -> dict[str, dict[str, list[str]]]:
+    """Rows by their first cell, of each table by the first cell of its head."""
+    found: dict[str, dict[str, list[str]]] = {}
+    rows: dict[str, list[str]] = {}
+    for line in README.read_text(encoding="utf-8").splitlines():
+        if not line.startswith("|"):
+            rows = {}
+            continue
+        first, *cells = (cell.strip() for cell in line.split("|")[1:-1])
+        if not rows:
+            found[first] = rows
+        rows[first] = cells
+    return found
+
+
+TABLES = tables()
+
+
+@pytest.mark.parametrize(
+    ("kind", "parameter"),
+    [
+        pytest.param(kind, parameter, id=f"{kind.label} {parameter.identifier}")
+        for kind in KINDS.values()
+        for parameter in kind.parameters
+    ],
+)
+def test_parameter_is_described_as_it_is(kind, parameter) -> None:
     if parameter.kind in SURFACES_OWN:
-        assert "Normal, Tangent" in ROWS
+        assert "Normal, Tangent" in TABLES[ALL]
         return
-    default, span, text = ROWS[parameter.label]
+    own = TABLES[kind.name]
+    default, span, text = own.get(parameter.label) or TABLES[ALL][parameter.label]
     values = parameter.default if parameter.is_vector else (parameter.default,)
     assert default == ", ".join(f"{value:g}" for value in values)
     assert span == f"{parameter.legal[0]:g} to {parameter.legal[1]:g}"
     for number, choice in enumerate(parameter.choices):
-        if parameter.identifier != "Model":  # its table row tells which are still to come
-            assert f"{number} {choice}" in text
+        assert f"{number} {choice}" in text
+
+
+def test_tables_have_no_other_parameters() -> None:
+    labels = {parameter.label for kind in KINDS.values() for parameter in kind.parameters}
+    for name in (ALL, *(kind.name for kind in KINDS.values())):
+        rows = set(TABLES[name]) - {name, "---", "Normal, Tangent"}
+        assert rows <= labels, name
