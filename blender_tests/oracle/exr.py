@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures as float OpenEXR files with named layers and text metadata."""
+"""Pictures as OpenEXR files of floats with named layers and text metadata."""
 
 from pathlib import Path
 
@@ -9,8 +9,11 @@ import OpenImageIO as oiio
 _PREFIX = "microbounce:"
 
 
-def write(path: Path, layers: dict[str, np.ndarray], metadata: dict[str, str]) -> None:
-    """Write pictures ``(rows, columns)`` or ``(rows, columns, 3)``, zip-compressed, in float32.
+def write(
+    path: Path, layers: dict[str, np.ndarray], metadata: dict[str, str], half: bool = False
+) -> None:
+    """Write pictures ``(rows, columns)`` or ``(rows, columns, 3)``, zip-compressed, in float32 or
+    with ``half`` in float16 (relative rounding 2^-11, absolute 3e-8).
 
     The layer ``mean`` becomes channels R, G, B; others ``name.R`` and so on; flat ones ``name``.
     Raises ``ValueError`` for pictures of different sizes and ``OSError`` when the file cannot be
@@ -30,7 +33,7 @@ def write(path: Path, layers: dict[str, np.ndarray], metadata: dict[str, str]) -
         sizes = {name: plane.shape for name, plane in zip(names, planes, strict=True)}
         raise ValueError(f"the layers differ in size: {sizes}; give pictures of one size")
     rows, columns = planes[0].shape
-    spec = oiio.ImageSpec(columns, rows, len(planes), oiio.FLOAT)
+    spec = oiio.ImageSpec(columns, rows, len(planes), oiio.HALF if half else oiio.FLOAT)
     spec.channelnames = names
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", "1970:01:01 00:00:00")  # else the time of writing is stored

@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sphere's geometry, its pictures, and the reference files made of them."""
-
-import hashlib
-import json
+"""The views of the sphere and of the slab, and pictures of them."""
 
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Surface, exr, first_bounce, references, sphere
-from blender_tests.oracle.surface import BECKMANN
-
-ROWS = [14, 30, 47]  # of a reference, through dim and bright parts
+from blender_tests.oracle import (
+    BECKMANN,
+    GGX,
+    Dielectric,
+    Diffuse,
+    Surface,
+    first_bounce,
+    slab,
+    sphere,
+)
+from blender_tests.oracle import picture as pictures
+from blender_tests.oracle.vectors import dot, normalize
+from blender_tests.oracle.view import to_local
 
 
 def test_points_lie_on_the_sphere_behind_their_pixels():
@@ -44,9 +50,48 @@ def test_frames_are_right_handed_with_the_tangent_around_z():
     np.testing.assert_allclose(front[1], [0.0, 0.0, 1.0], atol=1e-15)
 
 
+def test_inside_out_the_viewer_is_below_the_surface():
+    outside, inside = sphere.view(16, 2), sphere.view(16, 2, inside_out=True)
+    np.testing.assert_array_equal(inside.axes[2], -outside.axes[2])
+    np.testing.assert_array_equal(inside.mask, outside.mask)
+    x, y, z = (axis[inside.mask] for axis in inside.axes)
+    np.testing.assert_allclose(np.cross(x, y), z, atol=1e-14)
+    row = np.flatnonzero(inside.mask.any(axis=1))[0]
+    assert np.all(outside.row(row)[0][..., 2] > 0.0)
+    assert np.all(inside.row(row)[0][..., 2] < 0.0)
+
+
+def test_pixels_lit_from_above_face_the_sun_with_all_their_points():
+    whole = sphere.view(32, 4)
+    lit = whole.lit_from_above(sphere.FRONT_SUN)
+    facing = dot(whole.axes[2], sphere.FRONT_SUN) > 0.0
+    assert facing[lit.mask].all()
+    left_out = whole.mask & ~lit.mask
+    assert not facing[left_out].all(axis=-1).any()
+    assert 0 < left_out.sum() < lit.mask.sum()
+
+
+def test_slab_is_seen_from_where_its_camera_looks():
+    view = slab.view(16, 4)
+    assert view.mask.all()
+    # the picture's centre is the corner of four pixels
+    centre = view.viewer[7:9, 7:9].mean(axis=(0, 1, 2))
+    np.testing.assert_allclose(normalize(centre), -slab.CAMERA_DIRECTION, atol=1e-14)
+    # along the middle column 50 degrees, less half a subpixel at each end
+    middle = normalize(view.viewer[:, 7:9].mean(axis=(1, 2)))
+    assert np.all(np.diff(middle[:, 2]) > 0.0)  # the top row looks at it most grazing
+    top, bottom = view.viewer[0, 8, 0], view.viewer[-1, 8, -1]
+    span = np.arccos(dot(top, bottom) / np.hypot(top[1], top[2]))
+    assert span == pytest.approx(slab.CAMERA_ANGLE, abs=0.06)
+    # what lies right in the picture is seen from its left
+    assert view.viewer[8, 0, 0, 0] > 0.0 > view.viewer[8, -1, 0, 0]
+    assert np.all(view.viewer[..., 2] > 0.0)
+    assert slab.SUN[2] < 0.0
+
+
 @pytest.mark.parametrize("surface", [Surface(1.0, 0.1), Surface(0.5, 0.5, BECKMANN)])
 def test_white_sphere_vanishes_in_the_furnace(surface):
-    picture = sphere.furnace_picture(surface, 4, 1, resolution=16)
+    picture = pictures.furnace_picture(sphere.view(16), surface, 4, 1)
     inside = picture["mask"] > 0.0
     z = (picture["mean"][inside] - 1.0)[:, 0] / np.maximum(picture["error"][inside][:, 0], 1e-9)
     # 4 standard errors leave one chance in 16 000 a pixel, of 150 pixels
@@ -55,12 +100,12 @@ def test_white_sphere_vanishes_in_the_furnace(surface):
 
 
 def test_picture_is_the_brdf_at_its_points():
-    surface = Surface(0.5, 0.5)
-    picture = sphere.sun_picture(surface, 8, 3, resolution=16)
+    surface, view = Surface(0.5, 0.5), sphere.view(16)
+    picture = pictures.sun_picture(view, sphere.FRONT_SUN, surface, 8, 3)
     points, _ = sphere.sphere_points(16)
     frames = sphere.local_frames(points[8, 9])
-    wi = sphere.to_local(sphere.VIEW_DIRECTION, frames)
-    wo = sphere.to_local(sphere.SUN_DIRECTION, frames)
+    wi = to_local(sphere.VIEW_DIRECTION, frames)
+    wo = to_local(sphere.FRONT_SUN, frames)
     expected = first_bounce(wi, wo, surface).mean(axis=0)
     np.testing.assert_allclose(picture["single"][8, 9], expected, rtol=1e-12)
     assert np.all(picture["mean"] >= picture["single"])
@@ -69,79 +114,33 @@ def test_picture_is_the_brdf_at_its_points():
     np.testing.assert_array_equal(picture["mean"][11, 2], 0.0)
 
 
-def test_exr_keeps_layers_and_metadata(tmp_path):
-    rng = np.random.default_rng(0)
-    layers = {"mean": rng.random((4, 6, 3)), "error": rng.random((4, 6, 3)), "mask": np.eye(4, 6)}
-    exr.write(tmp_path / "a.exr", layers, {"alpha": "0.5 0.1", "seed": "3"})
-    found, metadata = exr.read(tmp_path / "a.exr")
-    assert metadata == {"alpha": "0.5 0.1", "seed": "3"}
-    assert set(found) == set(layers)
-    for name, picture in layers.items():
-        np.testing.assert_array_equal(found[name], picture.astype(np.float32))
+def test_light_from_behind_comes_through_glass_alone():
+    view, centre = sphere.view(16, 2), (slice(7, 9), slice(7, 9))
+    for material, through in ((Dielectric(1.5), True), (Diffuse(), False)):
+        surface = Surface(0.5, 0.5, GGX, material)
+        picture = pictures.sun_picture(view, sphere.BACK_SUN, surface, 2, 1)
+        assert np.all((picture["single"][centre] > 0.01) == through)
+        assert np.all((picture["mean"][centre] > 0.01) == through)
 
 
-def test_exr_errors_name_the_file(tmp_path):
-    with pytest.raises(OSError, match=r"missing\.exr"):
-        exr.read(tmp_path / "missing.exr")
-    with pytest.raises(OSError, match="cannot write"):
-        exr.write(tmp_path / "none" / "a.exr", {"mean": np.zeros((2, 2, 3))}, {})
-    with pytest.raises(ValueError, match="differ in size"):
-        exr.write(tmp_path / "a.exr", {"mean": np.zeros((2, 2, 3)), "mask": np.zeros((3, 2))}, {})
-
-
-def test_every_case_has_its_file_and_nothing_else_is_there():
-    manifest = json.loads((references.FOLDER / "manifest.json").read_text(encoding="utf-8"))
-    assert list(manifest) == [case.name for case in references.CASES]
-    files = {entry["file"] for entry in manifest.values()}
-    assert {path.name for path in references.FOLDER.glob("*.exr")} == files
-    for case in references.CASES:
-        entry = manifest[case.name]
-        data = (references.FOLDER / entry["file"]).read_bytes()
-        assert hashlib.sha256(data).hexdigest() == entry["sha256"]
-        layers, metadata = exr.read(references.FOLDER / entry["file"])
-        assert metadata == case.metadata(), "the case changed; make its reference again"
-        assert references.relative_error(layers) <= 0.003
-
-
-@pytest.mark.parametrize("case", references.CASES, ids=lambda case: case.name)
-def test_reference_agrees_with_a_new_rendering_of_some_rows(case):
-    stored, _ = exr.read(references.FOLDER / f"{case.name}.exr")
-    render = sphere.furnace_picture if case.furnace else sphere.sun_picture
-    walks = max(2, case.walks // 8)
-    fresh = render(case.surface, walks, 1000 + case.seed, progress=lambda rows: ROWS)
-    lit = (stored["mask"] > 0.0) & (stored["mean"].max(axis=-1) > 1e-4)
-    lit[[row for row in range(len(lit)) if row not in ROWS]] = False
-    assert lit.sum() > 50
-    if "single" in stored:
-        # float32 in the file
-        np.testing.assert_allclose(stored["single"][lit], fresh["single"][lit], rtol=1e-6)
-    difference = stored["mean"][lit] - fresh["mean"][lit]
-    # errors are pooled before dividing: walks are skewed, so that a pixel with too low a mean has
-    # too low an error as well, and single z-values lean to one side
-    variance = stored["error"][lit] ** 2 + fresh["error"][lit] ** 2
-    assert np.abs(difference.sum(axis=0) / np.sqrt(variance.sum(axis=0))).max() < 4.0
-    # 57 pixels or more know their spread to 4 * sqrt(2 / 57) = 75 % at 4 standard errors
-    spread = (difference**2).sum(axis=0) / variance.sum(axis=0)
-    assert spread.min() > 0.25
-    assert spread.max() < 1.75
+def test_inside_out_glass_is_glass_of_the_inverse_index():
+    """Two ways to write the same: a viewer below the surface, and a medium turned around."""
+    found = []
+    for ior, inside_out in ((1.5, True), (1.0 / 1.5, False)):
+        surface = Surface(0.5, 0.5, GGX, Dielectric(ior))
+        view = sphere.view(16, 4, inside_out)
+        found.append(pictures.sun_picture(view, sphere.BACK_SUN, surface, 400, 7))
+    inside, inverse = found
+    np.testing.assert_allclose(inside["single"], inverse["single"], rtol=1e-9)
+    difference = (inside["mean"] - inverse["mean"])[..., 0]
+    variance = (inside["error"] ** 2 + inverse["error"] ** 2)[..., 0]
+    assert abs(difference.sum()) < 4.0 * np.sqrt(variance.sum())
+    # both sums are of walks: 1 % of the picture is 4 standard errors or more of it
+    assert np.sqrt(variance.sum()) < 0.0025 * inside["mean"][..., 0].sum()
 
 
 def test_rows_of_a_picture_do_not_depend_on_each_other():
-    surface = Surface(1.0, 1.0)
-    whole = sphere.sun_picture(surface, 2, 5, resolution=16)
-    row = sphere.sun_picture(surface, 2, 5, resolution=16, progress=lambda rows: [7])
+    surface, view = Surface(1.0, 1.0), sphere.view(16)
+    whole = pictures.sun_picture(view, sphere.FRONT_SUN, surface, 2, 5)
+    row = pictures.sun_picture(view, sphere.FRONT_SUN, surface, 2, 5, progress=lambda rows: [7])
     np.testing.assert_array_equal(row["mean"][7], whole["mean"][7])
-
-
-def test_making_a_file_twice_gives_the_same_bytes(tmp_path):
-    for folder in ("a", "b"):
-        arguments = ["--quick", "--case", "sun_white_beckmann_0.25", "--output"]
-        assert references.main([*arguments, str(tmp_path / folder)]) == 0
-    name = "sun_white_beckmann_0.25.exr"
-    assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
-
-
-def test_quick_pictures_never_replace_the_references(capsys):
-    with pytest.raises(SystemExit):
-        references.main(["--quick"])
-    assert "--output" in capsys.readouterr().err

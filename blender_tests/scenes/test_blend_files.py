@@ -9,7 +9,7 @@ import pytest
 
 from addon.core.kinds import KINDS
 from addon.nodes.group import has_bytecode, material_group
-from blender_tests.oracle import sphere
+from blender_tests.oracle import slab, sphere
 from scenes import fixtures, render, variants
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
@@ -99,11 +99,10 @@ def towards_sun() -> np.ndarray:
 @pytest.mark.parametrize("name", SUNS)
 def test_sun_is_the_oracles_and_can_be_moved_behind(name):
     opened(name)
-    np.testing.assert_allclose(towards_sun(), sphere.SUN_DIRECTION, atol=ROUNDING)
+    np.testing.assert_allclose(towards_sun(), sphere.FRONT_SUN, atol=ROUNDING)
     fixtures.aim_sun(fixtures.BACK_SUN)
-    behind = np.array(fixtures.BACK_SUN) / np.linalg.norm(fixtures.BACK_SUN)
-    np.testing.assert_allclose(towards_sun(), behind, atol=ROUNDING)
-    assert behind @ sphere.VIEW_DIRECTION < 0.0
+    np.testing.assert_allclose(towards_sun(), sphere.BACK_SUN, atol=ROUNDING)
+    assert sphere.BACK_SUN @ sphere.VIEW_DIRECTION < 0.0
 
 
 @pytest.mark.parametrize("name", FIXTURES)
@@ -175,12 +174,12 @@ def test_light_from_behind_comes_through_glass_alone(tmp_path):
 
 def test_slab_fills_the_picture_and_is_seen_at_many_angles():
     scene = opened("slab_dielectric")
-    slab, camera = bpy.data.objects["Slab"], scene.camera
+    plane, camera = bpy.data.objects["Slab"], scene.camera
     corners = [camera.matrix_world @ corner for corner in camera.data.view_frame(scene=scene)]
     eye = camera.matrix_world.translation
     np.testing.assert_allclose(eye, fixtures.SLAB_CAMERA, atol=ROUNDING)
     for corner in corners:
-        hit, place, normal, _ = slab.ray_cast(eye, corner - eye)
+        hit, place, normal, _ = plane.ray_cast(eye, corner - eye)
         assert hit
         np.testing.assert_allclose((*normal, place.z), (0.0, 0.0, 1.0, 0.0), atol=1e-5)
     # The middle column: half the camera's angle above and below its axis.
@@ -188,9 +187,21 @@ def test_slab_fills_the_picture_and_is_seen_at_many_angles():
     angles = [90.0 - down - side * fixtures.SLAB_ANGLE / 2 for side in (1, -1)]
     assert angles == pytest.approx([31.3, 81.3], abs=0.1)
     assert np.degrees(camera.data.angle) == pytest.approx(fixtures.SLAB_ANGLE)
-    towards = np.array(fixtures.SLAB_SUN) / np.linalg.norm(fixtures.SLAB_SUN)
-    np.testing.assert_allclose(towards_sun(), towards, atol=ROUNDING)
-    assert towards[2] < 0.0
+    np.testing.assert_allclose(towards_sun(), slab.SUN, atol=ROUNDING)
+    assert slab.SUN[2] < 0.0
+
+
+def test_slabs_camera_is_the_oracles():
+    scene = opened("slab_dielectric")
+    camera = scene.camera
+    axes = np.array(camera.matrix_world.to_3x3())
+    up = np.cross([1.0, 0.0, 0.0], slab.CAMERA_DIRECTION)
+    wanted = np.column_stack([(1, 0, 0), up, -slab.CAMERA_DIRECTION])
+    np.testing.assert_allclose(axes, wanted, atol=ROUNDING)
+    assert camera.data.angle == pytest.approx(slab.CAMERA_ANGLE)
+    assert (scene.render.resolution_x, scene.render.resolution_y) == (slab.RESOLUTION,) * 2
+    assert scene.cycles.pixel_filter_type == "BOX"
+    assert scene.cycles.filter_width == 1.0
 
 
 def test_showcase_tells_its_metals_apart():
