@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from blender_tests.oracle import exr
-from scenes import render, variants
+from scenes import fixtures, render, variants
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 REFERENCES = Path(__file__).resolve().parents[1] / "references"
@@ -41,7 +41,7 @@ class Widths:
 
 
 def open_scene(name: str) -> variants.Material:
-    """Open scenes/`name`.blend and return its metal (the first, where there are several)."""
+    """Open scenes/`name`.blend and return its material (the first, where there are several)."""
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{name}.blend"))
     return variants.find_materials()[0]
 
@@ -56,11 +56,26 @@ def picture(samples: int, seed: int = 0) -> np.ndarray:
 
 
 def render_fixture(name: str, samples: int, seed: int = 0, **values: object) -> np.ndarray:
-    """Open a fixture scene, set parameters of its metal by identifier, and render it."""
-    metal = open_scene(name)
-    for identifier, value in values.items():
-        metal.set(identifier, value)
+    """Open a fixture scene, set parameters of its material by identifier, and render it."""
+    set_values(open_scene(name), values)
     return picture(samples, seed)
+
+
+def set_values(material: variants.Material, values: dict[str, object]) -> None:
+    """Set parameters by identifier."""
+    for identifier, value in values.items():
+        material.set(identifier, value)
+
+
+def open_lit(light: str, kind: str) -> variants.Material:
+    """Open the fixture of this kind of material under the light of the references of that name:
+    "sun", "back" (a sun from behind), "inside" (the same, inside the solid) or "slab"."""
+    material = open_scene(f"{'slab' if light == 'slab' else 'sphere_sun'}_{kind.lower()}")
+    if light in ("back", "inside"):
+        fixtures.aim_sun(fixtures.BACK_SUN)
+    if light == "inside":
+        fixtures.turn_inside_out()
+    return material
 
 
 def reference(name: str) -> dict[str, np.ndarray]:
@@ -75,6 +90,24 @@ def l2_error(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
     return float(np.sqrt(np.sum(difference**2) / np.sum(wanted[mask] ** 2)))
 
 
+def unbiased_l2_error(
+    a: np.ndarray, b: np.ndarray, wanted: np.ndarray, mask: np.ndarray
+) -> tuple[float, float]:
+    """`l2_error` of what a picture converges to, from two independent renders `a` and `b` of it,
+    and that estimate's standard error.
+
+    The sum of (a - wanted) (b - wanted) has the mean of the squared bias alone, since the noise of
+    one render does not know the other's. What is left of noise has no sign; where it outweighs the
+    bias the error is 0. Channels of a grey picture are one.
+    """
+    product = ((a - wanted) * (b - wanted))[mask].mean(axis=-1)
+    power = np.mean(wanted[mask] ** 2)
+    squared = product.mean() / power
+    spread = product.std(ddof=1) / np.sqrt(product.size) / power  # of `squared`
+    error = np.sqrt(max(squared, 0.0))
+    return float(error), float(0.5 * spread / max(error, np.sqrt(spread)))
+
+
 def energy_ratio(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
     """Mean over the mask, relative to the reference's."""
     return float(found[mask].mean() / wanted[mask].mean())
@@ -83,16 +116,24 @@ def energy_ratio(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> flo
 def block_means(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
     """Means (blocks, 3) over squares of BLOCK pixels that lie wholly within the mask."""
     rows, columns = mask.shape
-    tiles = mask.reshape(rows // BLOCK, BLOCK, columns // BLOCK, BLOCK).all(axis=(1, 3))
     shape = (rows // BLOCK, BLOCK, columns // BLOCK, BLOCK, 3)
-    return image.reshape(shape).mean(axis=(1, 3))[tiles]
+    return image.reshape(shape).mean(axis=(1, 3))[_blocks(mask)]
+
+
+def rim_mean(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """Mean (3,) over the pixels of the mask that lie in none of `block_means`' squares."""
+    return image[mask & ~np.kron(_blocks(mask), np.ones((BLOCK, BLOCK), dtype=bool))].mean(axis=0)
+
+
+def _blocks(mask: np.ndarray) -> np.ndarray:
+    """Which squares of BLOCK pixels lie wholly within the mask."""
+    rows, columns = mask.shape
+    return mask.reshape(rows // BLOCK, BLOCK, columns // BLOCK, BLOCK).all(axis=(1, 3))
 
 
 def seeds(name: str, samples: int, count: int, **values: object) -> tuple[np.ndarray, np.ndarray]:
     """Mean of `count` independent renders, and the variance of that mean, (rows, columns, 3)."""
-    metal = open_scene(name)
-    for identifier, value in values.items():
-        metal.set(identifier, value)
+    set_values(open_scene(name), values)
     pictures = np.array([picture(samples, seed) for seed in range(count)])
     return pictures.mean(axis=0), pictures.var(axis=0, ddof=1) / count
 

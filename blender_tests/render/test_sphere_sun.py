@@ -143,8 +143,7 @@ def test_more_bounces_add_light() -> None:
     expected = energies(direction(0.0), Surface(1.0, 1.0), 4, 200_000, 1).both
     wanted = np.cumsum(expected.mean[:, 0])
     metal = pictures.open_scene("furnace_conductor")
-    for identifier, value in {"Quality": "Exact", "Tolerance": 0.0, **widths.inputs}.items():
-        metal.set(identifier, value)
+    pictures.set_values(metal, {"Quality": "Exact", "Tolerance": 0.0, **widths.inputs})
     for bounces, energy in enumerate(wanted, start=1):
         metal.set("MaxBounces", bounces)
         centre = pictures.picture(256)[28:36, 28:36].mean()

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Walk with its default kernel and walks against the oracle: every material, light and model.
+
+The error is that of the converged picture, without the noise of its few samples
+(`pictures.unbiased_l2_error`); the references' own noise, at most 0.5 %, is part of it. Limits are
+the product's promises: matte surfaces 3 %, glass 5 %. Reflection is measured where the sun shines
+on the side that is seen, transmission under a sun from behind and through a slab.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from . import pictures
+from .pictures import Widths
+
+# Samples of each of a case's two renders: noise then moves the error by 0.5 % at most where it is
+# near its limit. Reflections of rough glass are the dim part of its light and take more.
+SAMPLES = 64
+SAMPLES_OF_REFLECTIONS = 256
+SAMPLES_OF_FIRST_BOUNCES = 32
+LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
+# How the references' names call them. A white metal and glass of IOR 1.5 lose nothing.
+NAMES = {"CONDUCTOR": "white", "DIELECTRIC": "glass", "DIFFUSE": "diffuse"}
+OTHER_MODELS = ("height-uncorrelated", "height-tracked")
+CLAY = {"Color": (0.8, 0.5, 0.2)}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A reference picture, and what gives it in Blender."""
+
+    light: str
+    kind: str
+    widths: Widths
+    distribution: str = "GGX"
+    model: str = "height-correlated"
+
+    @property
+    def reference(self) -> str:
+        """The name of its file."""
+        model = self.model.removeprefix("height-")
+        parts = [self.light, NAMES[self.kind], self.distribution.lower(), self.widths.name]
+        return "_".join(parts if model == "correlated" else [*parts, model])
+
+    @property
+    def samples(self) -> int:
+        """Of a render of all bounces."""
+        dim = self.kind == "DIELECTRIC" and self.light == "sun" and self.widths.alpha_x == 1.0
+        return SAMPLES_OF_REFLECTIONS if dim else SAMPLES
+
+    @property
+    def values(self) -> dict[str, object]:
+        """The inputs of the material."""
+        return {"Distribution": self.distribution, "Model": self.model, **self.widths.inputs}
+
+
+def _isotropic(light: str, kind: str, *alphas: float, distribution: str = "GGX") -> list[Case]:
+    return [Case(light, kind, Widths(a, a), distribution) for a in alphas]
+
+
+def _sphere(light: str, kind: str) -> list[Case]:
+    rough = Widths(1.0, 1.0)
+    return [
+        *_isotropic(light, kind, 0.3, 1.0),
+        *_isotropic(light, kind, 0.3, 1.0, distribution="Beckmann"),
+        Case(light, kind, Widths(1.0, 0.1)),
+        *(Case(light, kind, rough, model=model) for model in OTHER_MODELS),
+    ]
+
+
+CASES = [
+    *(Case("sun", "CONDUCTOR", Widths(1.0, 1.0), model=model) for model in OTHER_MODELS),
+    *_sphere("sun", "DIFFUSE"),
+    *_sphere("sun", "DIELECTRIC"),
+    *_sphere("back", "DIELECTRIC"),
+    *_isotropic("inside", "DIELECTRIC", 0.5),
+    *_isotropic("slab", "DIELECTRIC", 0.1, 0.3, 0.6, 1.0),
+]
+# The first bounce of the height-tracked model is the height-correlated one.
+FIRST_BOUNCES = [case for case in CASES if case.model != "height-tracked"]
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.reference)
+def test_walk(case: Case, report) -> None:
+    """All bounces."""
+    _hold("Walk", case, "mean", case.samples, report)
+
+
+@pytest.mark.parametrize("case", FIRST_BOUNCES, ids=lambda case: case.reference)
+def test_first_bounce(case: Case, report) -> None:
+    """Bounce 1 alone against the oracle's own."""
+    _hold("bounce 1", case, "single", SAMPLES_OF_FIRST_BOUNCES, report, BounceOnly=1)
+
+
+def test_walk_of_coloured_diffuse(report) -> None:
+    """Each bounce takes its own albedo: hue and saturation are the oracle's."""
+    wanted = pictures.reference("sun_clay_ggx_1")
+    mask, mean = wanted["mask"], wanted["mean"]
+    a, b = _pair("sun", "DIFFUSE", SAMPLES, {**CLAY, **Widths(1.0, 1.0).inputs})
+    error, spread = pictures.unbiased_l2_error(a, b, mean, mask)
+    limit = LIMITS["DIFFUSE"]
+    ratios = (a + b)[mask].mean(axis=0) / (2.0 * mean[mask].mean(axis=0))
+    report("Walk, sun_clay_ggx_1", f"{error:.2%} +- {spread:.2%}", f"{limit:.0%}")
+    report("Walk, sun_clay_ggx_1: R, G, B", ", ".join(f"{r:.4f}" for r in ratios), "1 +- 0.02")
+    assert error < limit
+    assert abs(ratios - 1.0).max() < 0.02
+
+
+def _hold(what: str, case: Case, layer: str, samples: int, report, **values: object) -> None:
+    wanted = pictures.reference(case.reference)
+    mask, mean = wanted["mask"], wanted[layer]
+    a, b = _pair(case.light, case.kind, samples, {**case.values, **values})
+    error, spread = pictures.unbiased_l2_error(a, b, mean, mask)
+    limit = LIMITS[case.kind]
+    noisy = pictures.l2_error(a, mean, mask)
+    energy = pictures.energy_ratio(0.5 * (a + b), mean, mask)
+    report(
+        f"{what}, {case.reference}",
+        f"{error:.2%} +- {spread:.2%} (with noise {noisy:.1%}), energy {energy:.4f}",
+        f"{limit:.0%}",
+    )
+    assert error < limit
+
+
+def _pair(
+    light: str, kind: str, samples: int, values: dict[str, object]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Two independent pictures, of different seeds."""
+    pictures.set_values(pictures.open_lit(light, kind), values)
+    return pictures.picture(samples, seed=1), pictures.picture(samples, seed=2)
