@@ -98,10 +98,18 @@ def unbiased_l2_error(
 
     The sum of (a - wanted) (b - wanted) has the mean of the squared bias alone, since the noise of
     one render does not know the other's. What is left of noise has no sign; where it outweighs the
-    bias the error is 0. Channels of a grey picture are one.
+    bias the error is 0. It is taken over squares of 2 x 2 pixels, which halves that noise and shows
+    all that lobes as wide as the kernel leave. Channels of a grey picture are one.
     """
-    product = ((a - wanted) * (b - wanted))[mask].mean(axis=-1)
-    power = np.mean(wanted[mask] ** 2)
+
+    def squares(image: np.ndarray) -> np.ndarray:
+        rows, columns = mask.shape
+        image = np.where(mask[..., None], image, 0.0)
+        return image.reshape(rows // 2, 2, columns // 2, 2, 3).mean(axis=(1, 3))
+
+    here = squares(np.ones_like(wanted))[..., 0] > 0.0
+    product = (squares(a - wanted) * squares(b - wanted))[here].mean(axis=-1)
+    power = np.mean(squares(wanted)[here] ** 2)
     squared = product.mean() / power
     spread = product.std(ddof=1) / np.sqrt(product.size) / power  # of `squared`
     error = np.sqrt(max(squared, 0.0))
