@@ -3,6 +3,7 @@
 
 from dataclasses import dataclass
 
+from .crowd import Thing
 from .verdicts import Case
 
 
@@ -46,3 +47,14 @@ VALUES = {
         "the facet faced away: a random number of 1 was not below the chance of 1",
     ),
 }
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A thing of crowd.py, and what was seen."""
+
+    thing: Thing
+    was: str
+
+
+THINGS: dict[str, Picture] = {}
