@@ -17,8 +17,8 @@ from .pictures import Widths
 
 # Samples of each of a case's two renders. Reflections of glass of alpha 1 are the dim part of its
 # light, and its transmission has narrow lobes: they have more noise.
-SAMPLES = {"sun": 64, "back": 128, "inside": 128, "slab": 64}
-SAMPLES_OF_DIM_REFLECTIONS = 192
+SAMPLES = {"sun": 64, "back": 192, "inside": 128, "slab": 64}
+SAMPLES_OF_DIM_REFLECTIONS = 256
 SAMPLES_OF_FIRST_BOUNCES = 48
 LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
 # How the references' names call them. A white metal and glass of IOR 1.5 lose nothing.
@@ -127,6 +127,7 @@ def _hold(what: str, case: Case, layer: str, samples: int, report, **values: obj
 def _pair(
     light: str, kind: str, samples: int, values: dict[str, object]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Two independent pictures, of different seeds."""
+    """Two independent pictures."""
     pictures.set_values(pictures.open_lit(light, kind), values)
-    return pictures.picture(samples, seed=1), pictures.picture(samples, seed=2)
+    a, b = pictures.independent_pictures(samples, 2)
+    return a, b
