@@ -24,13 +24,15 @@ struct Accuracy {
 closure color first_bounce(Frame frame, Microsurface surface, Facet facet, vector wi,
                            Accuracy accuracy, output RandomStream stream)
 {
-  closure color lobes = 0;
   if (facet.kind == DIFFUSE)
     return diffuse_first_bounce(frame, surface, facet, accuracy.kernel, wi, stream);
-  if (facet.kind == DIELECTRIC || surface.model == UNCORRELATED)
-    lobes = facet_by_facet(frame, surface, facet, wi, stream);
-  if (surface.model != UNCORRELATED)
-    lobes = whole_reflection(frame, surface, facet) + lobes;
+  closure color lobes = 0;
+  if (surface.model == UNCORRELATED)
+    lobes = uncorrelated_reflection(frame, surface, facet, wi, stream);
+  else
+    lobes = whole_reflection(frame, surface, facet, 1);
+  if (facet.kind == DIELECTRIC)
+    lobes = first_refraction(frame, surface, facet, wi, stream) + lobes;
   return lobes;
 }
 

@@ -7,53 +7,100 @@
 #include "exits.h"
 #include "walk.h"
 
-// What is the same all around the normal is one lobe about it, the carrier, without any noise; the
-// rest, which depends on the side that the surface is seen from, is left to smoothed exits.
 #define DIFFUSE_FACETS 16
 #define DIFFUSE_EXITS 8
+
+// Most of the light is carried by two of Cycles' closures about the normal, which have no noise: a
+// ramp over the cosine z of the exit, z times the chance to leave, which is right where the view is
+// along the normal, and a part that grows with the mean slant of the visible facets of Oren and
+// Nayar's lobe, which is brighter towards the viewer. The rest is left to smoothed exits.
 #define KNOTS 8
+#define NAYAR_PER_SLANT 2
+
+struct Carrier {
+  float knots[KNOTS];  // of the ramp
+  float nayar;         // factor of Oren and Nayar's lobe
+};
+
+Carrier diffuse_carrier(Microsurface surface, Incidence arrival, vector mean_facet, float energy)
+{
+  Carrier carrier;
+  float part = min(NAYAR_PER_SLANT * hypot(mean_facet[0], mean_facet[1]), 1);
+  Microsurface rougher = surface;
+  rougher.alpha_x = rougher.alpha_y = max(surface.alpha_x, surface.alpha_y);
+  for (int k = 0; k < KNOTS; ++k) {
+    float z = k / (KNOTS - 1.0);
+    vector o = vector(sqrt(1 - z * z), 0, z);
+    carrier.knots[k] = (1 - part) * z * exit_probability(rougher, arrival, o);
+  }
+  carrier.nayar = part * energy;
+  return carrier;
+}
+
+// Oren and Nayar's lobe of roughness 1 as Cycles has it (Fujii's form), without interreflection:
+// z (1 + t) / NAYAR_NORM per unit of cosine density z / pi.
+#define NAYAR_NORM (1.5 - 2 / (3 * M_PI))
+
+// pi times the carrier's BSDF times cosine.
+float carried(Carrier carrier, vector wi, vector o)
+{
+  float x = o[2] * (KNOTS - 1);
+  int k = min(int(x), KNOTS - 2);
+  float t = wi[0] * o[0] + wi[1] * o[1];
+  if (t > 0)
+    t /= max(wi[2], o[2]);
+  return mix(carrier.knots[k], carrier.knots[k + 1], x - k) + carrier.nayar * o[2] * (1 + t);
+}
+
+closure color carrier_closures(Frame frame, Carrier carrier, color weight)
+{
+  color ramp[KNOTS];
+  for (int k = 0; k < KNOTS; ++k)
+    ramp[k] = color(carrier.knots[k]);
+  // The closure's own interreflection grows with the square of the albedo it is given.
+  float albedo = 1e-4;
+  return weight * diffuse_ramp(frame.z, ramp)
+         + (weight * (carrier.nayar * NAYAR_NORM / albedo))
+               * oren_nayar_diffuse_bsdf(frame.z, color(albedo), 1);
+}
 
 closure color diffuse_first_bounce(Frame frame, Microsurface surface, Facet facet, float kernel,
                                    vector wi, output RandomStream stream)
 {
   Incidence arrival = incidence(surface, wi);
-  vector shift = next_numbers(stream);
+  vector shift = next_numbers(stream), turns = next_numbers(stream);
   vector facets[DIFFUSE_FACETS];
   vector mean = vector(0);
   for (int i = 0; i < DIFFUSE_FACETS; ++i) {
     facets[i] = sample_visible_normal(surface, arrival, lattice_point(i, shift));
     mean += facets[i] / DIFFUSE_FACETS;
   }
-  // The least light around the normal: no facet sees less than <m, o>, and the mean of these is
-  // least on the side the mean facet faces away from. Of the two widths the rougher masks more.
-  Microsurface rougher = surface;
-  rougher.alpha_x = rougher.alpha_y = max(surface.alpha_x, surface.alpha_y);
-  float slant = hypot(mean[0], mean[1]);
-  color carrier[KNOTS];
-  float knot[KNOTS];
-  for (int k = 0; k < KNOTS; ++k) {
-    float z = k / (KNOTS - 1.0);
-    float sine = sqrt(1 - z * z);
-    float least = max(mean[2] * z - slant * sine, 0);
-    knot[k] = (least > 0) ? least * exit_probability(rougher, arrival, vector(sine, 0, z)) : 0;
-    carrier[k] = color(knot[k]);
-  }
-  closure color lobes = facet.tint * diffuse_ramp(frame.z, carrier);
-  vector turns = next_numbers(stream);
+  vector exits[DIFFUSE_EXITS];
+  float leave[DIFFUSE_EXITS];
+  float energy = 0;
   for (int i = 0; i < DIFFUSE_EXITS; ++i) {
     vector u = lattice_point(i, turns);
-    vector o = cosine_direction(facets[2 * i], u[0], u[1]);
-    float leave = exit_probability(surface, arrival, o);
-    if (leave <= 0)
-      continue;
+    exits[i] = cosine_direction(facets[2 * i], u[0], u[1]);
+    leave[i] = exit_probability(surface, arrival, exits[i]);
+    energy += leave[i] / DIFFUSE_EXITS;
+  }
+  // The carrier takes the part that it can take at all exits.
+  Carrier carrier = diffuse_carrier(surface, arrival, mean, energy);
+  float share[DIFFUSE_EXITS];
+  float part = 1;
+  for (int i = 0; i < DIFFUSE_EXITS; ++i) {
     float seen = 0;
     for (int j = 0; j < DIFFUSE_FACETS; ++j)
-      seen += max(dot(facets[j], o), 0) / DIFFUSE_FACETS;
-    int k = min(int(o[2] * (KNOTS - 1)), KNOTS - 2);
-    float carried = mix(knot[k], knot[k + 1], o[2] * (KNOTS - 1) - k);
-    float rest = leave - carried / seen;
+      seen += max(dot(facets[j], exits[i]), 0) / DIFFUSE_FACETS;
+    share[i] = (leave[i] > 0) ? carried(carrier, wi, exits[i]) / seen : 0;
+    if (share[i] > leave[i] / part)
+      part = leave[i] / share[i];
+  }
+  closure color lobes = carrier_closures(frame, carrier, part * facet.tint);
+  for (int i = 0; i < DIFFUSE_EXITS; ++i) {
+    float rest = leave[i] - part * share[i];
     if (rest > 0)
-      lobes = smooth_exit(frame, surface, facet, kernel, wi, o, 0,
+      lobes = smooth_exit(frame, surface, facet, kernel, wi, exits[i], 0,
                           facet.tint * (rest / DIFFUSE_EXITS))
               + lobes;
   }

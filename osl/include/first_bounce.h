@@ -1,86 +1,148 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first bounce of metal and glass.
+// The first bounce of metal and glass. Where Cycles has no closure for the whole of it, it has one
+// for most of it, the carrier, which has no noise; the rest is left to some of the facets that the
+// view sees, each of them a smooth lobe.
 #ifndef MICROBOUNCE_FIRST_BOUNCE_H
 #define MICROBOUNCE_FIRST_BOUNCE_H
 
 #include "exits.h"
 #include "walk.h"
 
-// Facets that the view sees, each of which is given a lobe of this width relative to the surface,
-// where Cycles has no closure for the whole of a first bounce.
-#define FACETS 8
+#define FACETS 12
+
+// Half-width of a facet's lobe relative to the surface's. It is narrower where the facet stands
+// nearly upright, since no facet leans over: at most so much of the facet's z, down to a part.
 #define FACET_LOBE 0.3
+#define LOBE_PER_Z 0.2
+#define NARROWEST_LOBE 0.2
+
+// Widest Beckmann closure whose light beyond all facets (see refraction_carrier) is below 1 %.
+#define WIDEST_CARRIER 0.85
 
 string distribution_name(Microsurface surface)
 {
   return surface.beckmann ? "beckmann" : "ggx";
 }
 
-// Reflection: Cycles' own closures, which are height-correlated.
-closure color whole_reflection(Frame frame, Microsurface surface, Facet facet)
+// The largest part of the carrier, at most `part`, that is nowhere brighter than what leaves.
+float possible_part(float part, float leave[FACETS], float carried[FACETS])
+{
+  float possible = part;
+  for (int i = 0; i < FACETS; ++i)
+    if (possible * carried[i] > leave[i])
+      possible = leave[i] / carried[i];
+  return possible;
+}
+
+// Reflection by Cycles' own closures, which are height-correlated, times `part`.
+closure color whole_reflection(Frame frame, Microsurface surface, Facet facet, float part)
 {
   string ndf = distribution_name(surface);
   if (facet.kind == DIELECTRIC)
-    return dielectric_bsdf(frame.z, frame.x, facet.tint, color(0), surface.alpha_x,
+    return dielectric_bsdf(frame.z, frame.x, part * facet.tint, color(0), surface.alpha_x,
                            surface.alpha_y, facet.ior, ndf);
   if (facet.metal.physical)
-    return conductor_bsdf(frame.z, frame.x, surface.alpha_x, surface.alpha_y,
-                          vector(facet.metal.first), vector(facet.metal.second), ndf);
-  return microfacet_f82_tint(ndf, frame.z, frame.x, surface.alpha_x, surface.alpha_y,
-                             facet.metal.first, facet.metal.second);
+    return part * conductor_bsdf(frame.z, frame.x, surface.alpha_x, surface.alpha_y,
+                                 vector(facet.metal.first), vector(facet.metal.second), ndf);
+  return part * microfacet_f82_tint(ndf, frame.z, frame.x, surface.alpha_x, surface.alpha_y,
+                                    facet.metal.first, facet.metal.second);
 }
 
-// A lobe about the facet `m` that refracts to `down`, by Cycles' closure of that very facet unless
-// Cycles would bend its normal.
-closure color facet_transmission(Frame frame, vector wi, vector m, vector down, float ior,
-                                 float alpha, color weight)
+// Reflection in the uncorrelated model: the correlated one is the carrier.
+closure color uncorrelated_reflection(Frame frame, Microsurface surface, Facet facet, vector wi,
+                                      output RandomStream stream)
 {
-  if (is_left_alone(frame, wi, m))
-    return weight * microfacet("beckmann", to_world(frame, m), to_world(frame, any_tangent(m)),
-                               alpha, alpha, ior, 1);
-  return smooth_transmission(frame, wi, down, alpha * abs(1 - 1 / ior), weight);
-}
-
-// The chance that a first vertex leaves after it has crossed to `o`, for a random `number`.
-float crossing_probability(Microsurface surface, Incidence arrival, vector o, float number)
-{
-  if (surface.model == UNCORRELATED)
-    return exit_probability(surface, arrival, o);
-  return escape_chance(surface, o, height_from_below(height_met(arrival, number)));
-}
-
-// The first bounce off each of some facets: transmission, for which Cycles' closure has the masking
-// of a reflection (too bright by a fourth where Lambda is 1/2); and reflection in the uncorrelated
-// model.
-closure color facet_by_facet(Frame frame, Microsurface surface, Facet facet, vector wi,
-                             output RandomStream stream)
-{
-  closure color lobes = 0;
+  Microsurface correlated = surface;
+  correlated.model = CORRELATED;
   Incidence arrival = incidence(surface, wi);
-  vector shift = next_numbers(stream), heights = next_numbers(stream);
-  float alpha_x = FACET_LOBE * surface.alpha_x, alpha_y = FACET_LOBE * surface.alpha_y;
+  vector shift = next_numbers(stream);
+  vector exits[FACETS];
+  float cosine[FACETS], leave[FACETS], carried[FACETS];
+  for (int i = 0; i < FACETS; ++i) {
+    vector m = sample_visible_normal(surface, arrival, lattice_point(i, shift));
+    cosine[i] = clamp(dot(wi, m), 0, 1);
+    exits[i] = 2 * cosine[i] * m - wi;
+    leave[i] = exit_probability(surface, arrival, exits[i]);
+    carried[i] = exit_probability(correlated, arrival, exits[i]);
+  }
+  float part = possible_part(1, leave, carried);
+  closure color lobes = whole_reflection(frame, surface, facet, part);
+  for (int i = 0; i < FACETS; ++i) {
+    float rest = leave[i] - part * carried[i];
+    if (facet.kind == DIELECTRIC)
+      rest *= dielectric_fresnel(facet.ior, cosine[i]);
+    if (rest > 0)
+      lobes = smooth_reflection(frame, wi, exits[i], FACET_LOBE * surface.alpha_x,
+                                FACET_LOBE * surface.alpha_y,
+                                facet_weight(facet, cosine[i]) * (rest / FACETS))
+              + lobes;
+  }
+  return lobes;
+}
+
+// Refraction is carried by Cycles' Beckmann closure, which is isotropic and has the masking of a
+// reflection. Evaluated where no facet refracts to, Cycles' refraction takes the density of facets
+// that lean over; Beckmann's have few of these.
+Microsurface refraction_carrier(Microsurface surface)
+{
+  Microsurface carrier = surface;
+  carrier.alpha_x = min(min(surface.alpha_x, surface.alpha_y), WIDEST_CARRIER);
+  carrier.alpha_y = carrier.alpha_x;
+  carrier.beckmann = 1;
+  carrier.model = CORRELATED;
+  return carrier;
+}
+
+// The carrier's NDF over the surface's at a micronormal that the surface has.
+float ndf_ratio(Microsurface carrier, Microsurface surface, vector m)
+{
+  float x = m[0] / surface.alpha_x, y = m[1] / surface.alpha_y;
+  float z2 = m[2] * m[2];
+  float exponent = (m[0] * m[0] + m[1] * m[1]) / (carrier.alpha_x * carrier.alpha_y);
+  float width = surface.alpha_x * surface.alpha_y / (carrier.alpha_x * carrier.alpha_y);
+  float slope2 = x * x + y * y;
+  if (exponent > 80 * z2)
+    return 0;
+  if (surface.beckmann)
+    return width * exp((slope2 - exponent) / z2);
+  return width * exp(-exponent / z2) * (1 + slope2 / z2) * (1 + slope2 / z2);
+}
+
+// Refraction, for which Cycles' closures have the wrong masking: too bright by a fourth where
+// Lambda is 1/2.
+closure color first_refraction(Frame frame, Microsurface surface, Facet facet, vector wi,
+                               output RandomStream stream)
+{
+  Microsurface carrier = refraction_carrier(surface);
+  Incidence arrival = incidence(surface, wi), carrier_arrival = incidence(carrier, wi);
+  float scale = arrival.area / carrier_arrival.area;
+  float widest = FACET_LOBE * min(surface.alpha_x, surface.alpha_y);
+  vector shift = next_numbers(stream);
+  vector exits[FACETS];
+  float sent[FACETS], width[FACETS], leave[FACETS], carried[FACETS];
   for (int i = 0; i < FACETS; ++i) {
     vector m = sample_visible_normal(surface, arrival, lattice_point(i, shift));
     float cosine = clamp(dot(wi, m), 0, 1);
-    color weight = facet_weight(facet, cosine) / FACETS;
-    float reflected = 1;
-    if (facet.kind == DIELECTRIC) {
-      reflected = dielectric_fresnel(facet.ior, cosine);
-      vector o = refracted(wi, m, cosine, facet.ior);
-      vector height = lattice_point(i, heights);
-      float leave = crossing_probability(surface, arrival, o, height[0]);
-      if (reflected < 1 && leave > 0)
-        lobes = facet_transmission(frame, wi, m, -o, facet.ior, sqrt(alpha_x * alpha_y),
-                                   weight * ((1 - reflected) * leave))
-                + lobes;
-    }
-    if (surface.model == UNCORRELATED) {
-      vector o = 2 * cosine * m - wi;
-      float leave = exit_probability(surface, arrival, o);
-      if (leave > 0)
-        lobes = smooth_reflection(frame, wi, o, alpha_x, alpha_y, weight * (reflected * leave))
-                + lobes;
-    }
+    vector o = refracted(wi, m, cosine, facet.ior);
+    exits[i] = o;
+    sent[i] = 1 - dielectric_fresnel(facet.ior, cosine);
+    leave[i] = leave_probability(surface, arrival, o, 1);
+    carried[i] = ndf_ratio(carrier, surface, m) * scale
+                 * exit_probability(carrier, carrier_arrival, o);
+    width[i] = clamp(LOBE_PER_Z * m[2], NARROWEST_LOBE * widest, widest)
+               * abs(dot(o, m) - cosine / facet.ior);
+  }
+  // Cycles does not sample a closure whose flat surface would refract nothing, and lets nothing be
+  // masked where the index hardly changes.
+  float part = dielectric_fresnel(facet.ior, wi[2]) < 0.5 && abs(facet.ior - 1) > 2e-4;
+  part = possible_part(part, leave, carried);
+  closure color lobes = dielectric_bsdf(frame.z, frame.x, color(0), part * facet.tint,
+                                        carrier.alpha_x, carrier.alpha_y, facet.ior, "beckmann");
+  for (int i = 0; i < FACETS; ++i) {
+    float rest = sent[i] * (leave[i] - part * carried[i]);
+    if (rest > 0)
+      lobes = smooth_transmission(frame, wi, -exits[i], width[i], facet.tint * (rest / FACETS))
+              + lobes;
   }
   return lobes;
 }

@@ -95,6 +95,49 @@ float exit_probability(Microsurface surface, Incidence arrival, vector o)
   return (stays > 0) ? leaves / (leaves + stays) : 1;
 }
 
+// Stirling's remainder log Gamma(x) - (x - 1/2) log x + x - log(2 pi) / 2 at x = 1 / p >= 1, as
+// Stieltjes' continued fraction; within 1.1e-5 at x = 1.
+float stirling_remainder(float p)
+{
+  float p2 = p * p;
+  float tail = 1 + (195 / 371.0) * p2 / (1 + (22999 / 22737.0) * p2 / (1 + 1.5144 * p2));
+  return p / (12 + 0.4 * p2 / (1 + (53 / 210.0) * p2 / tail));
+}
+
+// log(1 + z) / z for z >= 0; 1 + z would lose the digits of a small z.
+float log1p_over(float z)
+{
+  return (z > 0.01) ? log(1 + z) / z : 1 - z * (0.5 - z * (1 / 3.0 - 0.25 * z));
+}
+
+// The chance that a path refracted to `o`, in the frame of the other side, leaves there without
+// another bounce, height-correlated: the height that it has met has density a u^(a-1) with
+// a = |1 + Lambda(v)|, and (1 - u)^Lambda(o) escapes, which makes a B(a, 1 + Lambda(o)) =
+// (x + y - 1) B(x, y) with x = a + 1 and y = 1 + Lambda(o), by Stirling's formula. p = 1 / x and
+// q = 1 / y stay finite where the directions graze.
+float crossing_probability(Microsurface surface, Incidence arrival, vector o)
+{
+  if (o[2] <= 0)
+    return 0;
+  float depth = abs(arrival.v[2]);
+  float p = max(depth / (arrival.area + depth), 1e-18);
+  float q = max(o[2] / (o[2] + projected_excess(surface, o)), 1e-18);
+  float both = p + q;
+  float exponent = log1p_over(p / q) / q + log1p_over(q / p) / p - 0.5 * log(M_2PI * both)
+                   - stirling_remainder(p) - stirling_remainder(q)
+                   + stirling_remainder(p * q / both);
+  return min((both - p * q) / (p * q) * exp(-exponent), 1);
+}
+
+// The chance that a path from `arrival` leaves towards `o`, in the frame of the side that it is on
+// then, where its height is not known.
+float leave_probability(Microsurface surface, Incidence arrival, vector o, int crossed)
+{
+  if (crossed && surface.model != UNCORRELATED)
+    return crossing_probability(surface, arrival, o);
+  return exit_probability(surface, arrival, o);
+}
+
 // An upper bound of the energy that a white surface seen from `wi` sends on after its first bounce.
 // GGX: like alpha^2, growing towards grazing views. Beckmann: like the chance of a slope that
 // mirrors wi to the horizon. The factors keep it above the oracle's energies and, where it is

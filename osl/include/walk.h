@@ -28,7 +28,7 @@ struct Vertex {
   int crossed;   // whether that is the other side
   float cosine;  // between the ray and the facet
   float leave;   // chance that it leaves the surface in this direction
-  float log_u;   // height on the side after
+  float log_u;   // height on the side after; of the height-tracked model alone
 };
 
 Walker walker_from(Microsurface surface, vector wi, output RandomStream stream)
@@ -55,14 +55,13 @@ Vertex sample_vertex(Microsurface surface, Facet facet, Incidence arrival, Walke
   vertex.o = scattered(facet, arrival.v, vertex.m, walker.below, vertex.cosine, extra[0], extra[1],
                        vertex.crossed);
   vertex.log_u = walker.log_u;
-  if (vertex.crossed && surface.model == CORRELATED)
-    vertex.log_u = height_met(arrival, extra[2]);
-  if (vertex.crossed && surface.model != UNCORRELATED)
-    vertex.log_u = height_from_below(vertex.log_u);
-  if (surface.model == HEIGHT_TRACKED || (vertex.crossed && surface.model == CORRELATED))
+  if (surface.model == HEIGHT_TRACKED) {
+    if (vertex.crossed)
+      vertex.log_u = height_from_below(walker.log_u);
     vertex.leave = escape_chance(surface, vertex.o, vertex.log_u);
+  }
   else
-    vertex.leave = exit_probability(surface, arrival, vertex.o);
+    vertex.leave = leave_probability(surface, arrival, vertex.o, vertex.crossed);
   return vertex;
 }
 
