@@ -14,7 +14,7 @@ from blender_tests.oracle import masking, visible
 from blender_tests.oracle.fresnel import dielectric_reflectance
 from blender_tests.oracle.materials import Dielectric
 from blender_tests.oracle.ndf import sigma
-from blender_tests.oracle.surface import BECKMANN, GGX, HEIGHT_TRACKED, MODELS, UNCORRELATED
+from blender_tests.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, MODELS
 from blender_tests.oracle.vectors import dot
 
 # The smallest random number but 0.
@@ -98,13 +98,14 @@ def next_heights(
     return of_surfaces(height, alpha, o, log_u, number)
 
 
-def crossing(alpha: np.ndarray, view: np.ndarray, o: np.ndarray, number: np.ndarray) -> np.ndarray:
-    """Chance that a path from `view` leaves towards `o` after it has crossed."""
-    log_u = masking.height_from_below(met(alpha, view, number))
-    separable = alpha.copy()
-    separable[:, 2] = 2 * MODELS.index(UNCORRELATED) + alpha[:, 2] % 2
-    uncorrelated = alpha[:, 2] == separable[:, 2]
-    return np.where(uncorrelated, leaving(separable, view, o), escaping(alpha, o, log_u))
+def crossing(alpha: np.ndarray, view: np.ndarray, o: np.ndarray) -> np.ndarray:
+    """Chance that a path from `view` leaves towards `o` after it has crossed, height-correlated."""
+
+    def odds(v: np.ndarray, o: np.ndarray, s: SimpleNamespace) -> np.ndarray:
+        crossed = np.ones(len(v), dtype=bool)
+        return masking.exit_odds(v, sigma(v, s), o, sigma(-o, s), crossed, None, CORRELATED).p_exit
+
+    return of_surfaces(odds, alpha, view, o)
 
 
 def _glass(eta: np.ndarray) -> SimpleNamespace:

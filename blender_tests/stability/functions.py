@@ -123,25 +123,15 @@ FUNCTIONS = {
         high=0.0,
     ),
     "crossing_probability": Function(
-        "first_bounce.h",
-        f"{SURFACE} {_VIEW} result = crossing_probability(surface, arrival, o, number);",
-        {
-            "alpha": a.surfaces(),
-            "view": a.DIRECTION,
-            "o": a.DIRECTION,
-            "number": a.UNIFORM,
-        },
+        "smith.h",
+        f"{SURFACE} {_VIEW} result = crossing_probability(surface, arrival, o);",
+        {"alpha": a.surfaces(), "view": a.DIRECTION, "o": a.DIRECTION},
         answers.crossing,
         floor=1e-6,
         high=1.0,
-        rounded=("number",),
-        defined=lambda alpha, view, o, number: (
-            (number >= answers.SMALLEST)
-            & (number < 1.0)
-            & answers.seen(alpha, view)
-            # Along the horizon a path meets the very top, whose depth from below is infinite.
-            & (view[:, 2] != 0.0)
-        ),
+        # Exactly along the horizon a path meets the very top, and never crosses; there the oracle
+        # itself stands on its cap of 1e15 for what is infinite.
+        defined=lambda alpha, view, o: answers.seen(alpha, view) & (view[:, 2] != 0.0),
     ),
     "missing_energy_bound": Function(
         "smith.h",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cases that once failed, by name, with what was wrong. Run one with pytest -k "name"."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .crowd import Thing
 from .verdicts import Case
@@ -57,4 +57,42 @@ class Picture:
     was: str
 
 
-THINGS: dict[str, Picture] = {}
+_PLAIN = Thing(
+    kind="CONDUCTOR",
+    finish="linked",
+    shape="plane",
+    inputs={
+        "Quality": 2,
+        "Model": 0,
+        "Distribution": 1,
+        "Roughness": 0.01,
+        "Anisotropy": 0.0,
+        "Rotation": 0.0,
+        "Tangent": (0.0, 0.0, 0.0),
+        "Normal": (0.999, 0.0, -0.01),
+        "BaseColor": (1.0, 1.0, 1.0),
+        "EdgeTint": (1.0, 1.0, 1.0),
+    },
+    flipped=False,
+    cosine=0.1,
+    scale=(1.0, 1.0, 1.0),
+    rotation=(0.0, 0.0, 0.0),
+    moving=False,
+    nested=False,
+)
+_GLASS = {
+    name: value for name, value in _PLAIN.inputs.items() if name not in ("BaseColor", "EdgeTint")
+}
+_GLASS |= {"Color": (1.0, 1.0, 1.0), "IOR": 1.0001, "Model": 1, "Normal": (0.0, 0.0, 0.0)}
+
+THINGS = {
+    "metal of alpha 1e-4 along the horizon": Picture(
+        _PLAIN,
+        "showed more than the furnace: Cycles takes the first bounce for a mirror's, which loses "
+        "nothing to masking, and the walks came on top",
+    ),
+    "bumped glass that is hardly there": Picture(
+        replace(_PLAIN, kind="DIELECTRIC", finish="textured", shape="slant", inputs=_GLASS),
+        "showed more than the furnace where bumps turn the normal far from a grazing surface",
+    ),
+}

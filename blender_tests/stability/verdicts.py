@@ -69,19 +69,26 @@ def _oracle(function: Function, columns: Mapping[str, np.ndarray]) -> np.ndarray
     return found[:, None] if found.ndim == 1 else found
 
 
+def compared(function: Function, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Which cases the oracle is asked for, (n,)."""
+    exact = {name: column.astype(float) for name, column in columns.items()}
+    count = len(next(iter(exact.values())))
+    if _oracle(function, exact).shape[1] == 0:
+        return np.zeros(count, dtype=bool)
+    return np.ones(count, dtype=bool) if function.defined is None else function.defined(**exact)
+
+
 def errors(function: Function, columns: Mapping[str, np.ndarray], found: np.ndarray) -> np.ndarray:
     """Largest relative error of each case, (n,); 0 where the oracle is not asked for."""
+    asked = compared(function, columns)
+    if not np.any(asked):
+        return np.zeros(len(asked))
     low, high = wanted(function, columns)
-    if low.shape[1] == 0:
-        return np.zeros(len(low))
     channels = found[:, : low.shape[1]]
     away = np.maximum(np.maximum(low - channels, channels - high), 0.0)
     size = np.maximum(np.maximum(np.abs(low), np.abs(high)), function.floor)
-    error = np.max(away / size, axis=1)
-    if function.defined is None:
-        return error
-    exact = {name: column.astype(float) for name, column in columns.items()}
-    return np.where(function.defined(**exact), error, 0.0)
+    with np.errstate(invalid="ignore"):
+        return np.where(asked, np.max(away / size, axis=1), 0.0)
 
 
 def faults(function: Function, cases: Sequence[Case]) -> list[str]:
