@@ -11,6 +11,10 @@
 // Candidates for the first vertex of each walk: more make it less noisy, and cost a vertex each.
 #define CANDIDATES 4
 
+// Widths of exits where a path is not seen by the camera at once, and goes on at random anyway:
+// relative to the surface's, and of those that the camera sees.
+#define NARROW_KERNEL 0.1
+
 struct Accuracy {
   int quality;      // 0 Single, 1 Fitted, 2 Walk, 3 Exact
   int max_bounces;  // at least 1
@@ -54,21 +58,25 @@ closure color further_bounces(Frame frame, Microsurface surface, Facet facet, ve
     walker = stayed(surface, walker, first, stream);
     vector o = walk_to_exit(surface, facet, 1, accuracy.max_bounces, accuracy.only,
                             accuracy.tolerance, stream, walker);
-    lobes = smooth_exit(frame, surface, facet, accuracy.kernel, wi, o, walker.below,
-                        walker.throughput / accuracy.walks)
+    lobes = smooth_exit(frame, surface, facet, accuracy.kernel, KERNEL_PER_ALPHA, wi, o,
+                        walker.below, walker.throughput / accuracy.walks)
             + lobes;
   }
   return lobes;
 }
 
-// Every bounce of one walk, going exactly to its exit.
-closure color singular_walk(Frame frame, Microsurface surface, Facet facet, vector wi,
-                            Accuracy accuracy, output RandomStream stream)
+// Every bounce of one walk, as one closure: going exactly to its exit, or, in Walk, as a lobe much
+// narrower than the surface's.
+closure color one_walk(Frame frame, Microsurface surface, Facet facet, vector wi,
+                       Accuracy accuracy, output RandomStream stream)
 {
   Walker walker = walker_from(surface, wi, stream);
   vector o = walk_to_exit(surface, facet, 0, accuracy.max_bounces, accuracy.only,
                           accuracy.tolerance, stream, walker);
-  return walker.throughput * singular_exit(frame, facet, wi, o, walker.below);
+  if (accuracy.quality == 3)
+    return walker.throughput * singular_exit(frame, facet, wi, o, walker.below);
+  return smooth_exit(frame, surface, facet, NARROW_KERNEL * accuracy.kernel, NARROW_KERNEL, wi, o,
+                     walker.below, walker.throughput);
 }
 
 // The material, by the steps of the accuracy ladder.
@@ -76,8 +84,10 @@ closure color all_closures(Frame frame, Microsurface surface, Facet facet, vecto
                            Accuracy accuracy, output RandomStream stream)
 {
   closure color lobes = 0;
-  if (accuracy.quality == 3)
-    return singular_walk(frame, surface, facet, wi, accuracy, stream);
+  // A path goes through glass many times, most of them after bounces that have spread it already.
+  int one = facet.kind == DIELECTRIC && accuracy.quality == 2 && !raytype("camera");
+  if (one || accuracy.quality == 3)
+    return one_walk(frame, surface, facet, wi, accuracy, stream);
   if (accuracy.only < 2)
     lobes = first_bounce(frame, surface, facet, wi, accuracy, stream);
   if (accuracy.quality > 0 && accuracy.only != 1 && accuracy.max_bounces > 1

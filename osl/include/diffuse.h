@@ -100,7 +100,7 @@ closure color diffuse_first_bounce(Frame frame, Microsurface surface, Facet face
   for (int i = 0; i < DIFFUSE_EXITS; ++i) {
     float rest = leave[i] - part * share[i];
     if (rest > 0)
-      lobes = smooth_exit(frame, surface, facet, kernel, wi, exits[i], 0,
+      lobes = smooth_exit(frame, surface, facet, kernel, 1, wi, exits[i], 0,
                           facet.tint * (rest / DIFFUSE_EXITS))
               + lobes;
   }

@@ -101,12 +101,13 @@ closure color smooth_transmission(Frame frame, vector wi, vector down, float wid
                                        to_world(frame, any_tangent(facet)), alpha, alpha, ior, 1);
 }
 
-// An exit towards `o`, in the frame of its side, as a smooth lobe of half-width `kernel` or less.
-closure color smooth_exit(Frame frame, Microsurface surface, Facet facet, float kernel, vector wi,
-                          vector o, int below, color weight)
+// An exit towards `o`, in the frame of its side, as a smooth lobe of half-width `kernel` (rad) or
+// less: at most `relative` to the surface, but that light from matte facets spreads over all
+// directions, whatever the roughness.
+closure color smooth_exit(Frame frame, Microsurface surface, Facet facet, float kernel,
+                          float relative, vector wi, vector o, int below, color weight)
 {
-  // Light from matte facets spreads over all directions, whatever the roughness.
-  float widest = (facet.kind == DIFFUSE) ? 1 : KERNEL_PER_ALPHA;
+  float widest = (facet.kind == DIFFUSE) ? 1 : relative;
   float alpha_x = min(0.5 * kernel, widest * surface.alpha_x);
   float alpha_y = min(0.5 * kernel, widest * surface.alpha_y);
   if (facet.kind == DIELECTRIC && below)

@@ -8,7 +8,7 @@
 #include "exits.h"
 #include "walk.h"
 
-#define FACETS 12
+#define FACETS 8
 
 // Half-width of a facet's lobe relative to the surface's. It is narrower where the facet stands
 // nearly upright, since no facet leans over: at most so much of the facet's z, down to a part.
