@@ -54,7 +54,7 @@ format: ## Format the Python sources and fix what ruff can fix
 addon: ## Build the extension's zip into dist/ and validate it
 	@$(any) tools/build_addon.py
 
-references: ## Render the oracle's reference pictures anew (about ten minutes)
+references: ## Render the oracle's reference pictures anew (about 35 minutes)
 	@$(any) -m blender_tests.oracle.references
 
 figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
@@ -67,6 +67,6 @@ scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both
 	@$(on_4.5) -m scenes.build_all
 
 clean: ## Remove what was built; the virtual environments stay
-	@rm -rf build dist .pytest_cache .ruff_cache
+	@rm -rf build dist .pytest_cache .ruff_cache .hypothesis
 	@find . -name '.venv*' -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 	@find osl -name '*.oso' -delete 2>/dev/null || true
