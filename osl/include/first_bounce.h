@@ -8,16 +8,16 @@
 #include "exits.h"
 #include "walk.h"
 
-#define FACETS 8
+#define FACETS 10
 
 // Half-width of a facet's lobe relative to the surface's. It is narrower where the facet stands
 // nearly upright, since no facet leans over: at most so much of the facet's z, down to a part.
 #define FACET_LOBE 0.3
-#define LOBE_PER_Z 0.2
-#define NARROWEST_LOBE 0.2
+#define LOBE_PER_Z 0.14
+#define NARROWEST_LOBE 0.14
 
 // Widest Beckmann closure whose light beyond all facets (see refraction_carrier) is below 1 %.
-#define WIDEST_CARRIER 0.85
+#define WIDEST_CARRIER 0.75
 
 string distribution_name(Microsurface surface)
 {
@@ -108,6 +108,15 @@ float ndf_ratio(Microsurface carrier, Microsurface surface, vector m)
   return width * exp(-exponent / z2) * (1 + slope2 / z2) * (1 + slope2 / z2);
 }
 
+// Its largest value: that of GGX is at the slope sqrt(2 k2 - 1), for the smaller of its alphas.
+float largest_ndf_ratio(Microsurface carrier, Microsurface surface)
+{
+  float k2 = carrier.alpha_x / min(surface.alpha_x, surface.alpha_y);
+  k2 *= k2;
+  float width = surface.alpha_x * surface.alpha_y / (carrier.alpha_x * carrier.alpha_y);
+  return (surface.beckmann || k2 < 0.5) ? width : width * 4 * k2 * k2 * exp(1 / k2 - 2);
+}
+
 // Refraction, for which Cycles' closures have the wrong masking: too bright by a fourth where
 // Lambda is 1/2.
 closure color first_refraction(Frame frame, Microsurface surface, Facet facet, vector wi,
@@ -119,7 +128,8 @@ closure color first_refraction(Frame frame, Microsurface surface, Facet facet, v
   float widest = FACET_LOBE * min(surface.alpha_x, surface.alpha_y);
   vector shift = next_numbers(stream);
   vector exits[FACETS];
-  float sent[FACETS], width[FACETS], leave[FACETS], carried[FACETS];
+  float sent[FACETS], width[FACETS], leave[FACETS], carried[FACETS], most[FACETS];
+  float largest = largest_ndf_ratio(carrier, surface);
   for (int i = 0; i < FACETS; ++i) {
     vector m = sample_visible_normal(surface, arrival, lattice_point(i, shift));
     float cosine = clamp(dot(wi, m), 0, 1);
@@ -127,15 +137,16 @@ closure color first_refraction(Frame frame, Microsurface surface, Facet facet, v
     exits[i] = o;
     sent[i] = 1 - dielectric_fresnel(facet.ior, cosine);
     leave[i] = leave_probability(surface, arrival, o, 1);
-    carried[i] = ndf_ratio(carrier, surface, m) * scale
-                 * exit_probability(carrier, carrier_arrival, o);
+    float masked = scale * exit_probability(carrier, carrier_arrival, o);
+    carried[i] = masked * ndf_ratio(carrier, surface, m);
+    most[i] = masked * largest;
     width[i] = clamp(LOBE_PER_Z * m[2], NARROWEST_LOBE * widest, widest)
                * abs(dot(o, m) - cosine / facet.ior);
   }
   // Cycles does not sample a closure whose flat surface would refract nothing, and lets nothing be
   // masked where the index hardly changes.
   float part = dielectric_fresnel(facet.ior, wi[2]) < 0.5 && abs(facet.ior - 1) > 2e-4;
-  part = possible_part(part, leave, carried);
+  part = possible_part(part, leave, most);
   closure color lobes = dielectric_bsdf(frame.z, frame.x, color(0), part * facet.tint,
                                         carrier.alpha_x, carrier.alpha_y, facet.ior, "beckmann");
   for (int i = 0; i < FACETS; ++i) {
