@@ -86,7 +86,8 @@ _SHARED: tuple[Parameter, ...] = (
         (0, 64),
         (0, 8),
         unit="bounces",
-        tooltip="0 shows all bounces, k shows bounce k alone, for study",
+        tooltip="0 shows all bounces, k shows bounce k alone, for study. A number above Max "
+        "Bounces shows bounce Max Bounces",
         panel=BOUNCES_PANEL,
     ),
     Parameter(
@@ -119,7 +120,8 @@ _SHARED: tuple[Parameter, ...] = (
         (1, 16),
         (1, 8),
         unit="walks",
-        tooltip="Walks at every shading point in Walk: more have less noise and take longer",
+        tooltip="Walks at every shading point in Walk: more have less noise and take longer. Glass "
+        "that the camera does not see at once takes one",
         panel=BOUNCES_PANEL,
     ),
     Parameter(
