@@ -9,6 +9,7 @@ from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
+from scipy.special import gammaln
 
 from blender_tests.oracle import masking, visible
 from blender_tests.oracle.fresnel import dielectric_reflectance
@@ -106,6 +107,13 @@ def crossing(alpha: np.ndarray, view: np.ndarray, o: np.ndarray) -> np.ndarray:
         return masking.exit_odds(v, sigma(v, s), o, sigma(-o, s), crossed, None, CORRELATED).p_exit
 
     return of_surfaces(odds, alpha, view, o)
+
+
+def stirling(part: np.ndarray) -> np.ndarray:
+    """log Gamma(x) less Stirling's formula, at x = 1 / `part`; from x = 100 on its series."""
+    x = 1.0 / np.maximum(part, 0.01)
+    exact = gammaln(x) - (x - 0.5) * np.log(x) + x - 0.5 * np.log(2.0 * np.pi)
+    return np.where(part > 0.01, exact, part / 12.0 - part**3 / 360.0)
 
 
 def _glass(eta: np.ndarray) -> SimpleNamespace:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from hypothesis.strategies import SearchStrategy
-from scipy.special import erf
+from scipy.special import erf, exprel
 
 from blender_tests.oracle import masking, visible
 from blender_tests.oracle.error_function import deficit
@@ -132,6 +132,29 @@ FUNCTIONS = {
         # Exactly along the horizon a path meets the very top, and never crosses; there the oracle
         # itself stands on its cap of 1e15 for what is infinite.
         defined=lambda alpha, view, o: answers.seen(alpha, view) & (view[:, 2] != 0.0),
+    ),
+    "log1p_over": Function(
+        "smith.h",
+        "result = log1p_over(number);",
+        {"number": a.NUMBER},
+        lambda number: np.where(number > 0.0, np.log1p(number) / np.maximum(number, 1e-300), 1.0),
+        floor=1e-30,
+        high=1.0,
+    ),
+    "stirling_remainder": Function(
+        "smith.h",
+        "result = stirling_remainder(part);",
+        {"part": a.UNIFORM},
+        answers.stirling,
+        floor=1e-30,
+    ),
+    "one_minus_exp": Function(
+        "smith.h",
+        "result = one_minus_exp(log_u) / -log_u;",
+        {"log_u": a.LOG_U},
+        lambda log_u: exprel(log_u),
+        floor=1e-30,
+        high=1.0,
     ),
     "missing_energy_bound": Function(
         "smith.h",

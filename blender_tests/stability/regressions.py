@@ -88,8 +88,8 @@ _GLASS |= {"Color": (1.0, 1.0, 1.0), "IOR": 1.0001, "Model": 1, "Normal": (0.0, 
 THINGS = {
     "metal of alpha 1e-4 along the horizon": Picture(
         _PLAIN,
-        "showed more than the furnace: Cycles takes the first bounce for a mirror's, which loses "
-        "nothing to masking, and the walks came on top",
+        "showed more than the furnace: Cycles turns the first bounce's normal up to where it loses "
+        "nothing to masking (Bump Map Correction), and walks about the other normal came on top",
     ),
     "bumped glass that is hardly there": Picture(
         replace(_PLAIN, kind="DIELECTRIC", finish="textured", shape="slant", inputs=_GLASS),

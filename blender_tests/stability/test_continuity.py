@@ -75,6 +75,32 @@ def _index_near_one(cosine: float) -> list[Case]:
     return [{"eta": eta, "cosine": cosine} for eta in around(1.0)]
 
 
+def _steeper_than_half(eta: float) -> list[Case]:
+    """From cosine 0.7 on the refracted cosine is taken from the sines."""
+    return [{"eta": single(eta), "cosine": c} for c in around(0.7)]
+
+
+def _number(name: str) -> Callable[[float], list[Case]]:
+    def cases(value: float) -> list[Case]:
+        return [{name: one} for one in around(value)]
+
+    return cases
+
+
+def _part(end: float) -> list[Case]:
+    return [{"part": one} for one in around(end) if 0.0 <= one <= 1.0]
+
+
+def _crossing_at_horizon(name: str, **others: object) -> Callable[[float], list[Case]]:
+    """Where the cosine over the area alpha / 2 comes to its floor of 1e-18."""
+
+    def cases(alpha: float) -> list[Case]:
+        fixed = {"alpha": (alpha, alpha, 0.0), **others}
+        return [{**fixed, name: _slanted(z)} for z in around(1e-18 * 0.5 * alpha)]
+
+    return cases
+
+
 def _metal(first: float, second: float) -> Callable[[float], list[Case]]:
     def cases(cosine: float) -> list[Case]:
         colours = {"f0": (single(first),) * 3, "f1": (single(second),) * 3}
@@ -130,6 +156,15 @@ BRANCHES = {
     "exits of views at the horizon": Branch(
         FUNCTIONS["exit_probability"], _at_horizon("view", 0.0, o=_slanted(0.25)), _ALPHAS
     ),
+    "crossing, exits at the horizon": Branch(
+        FUNCTIONS["crossing_probability"], _crossing_at_horizon("o", **_SIDES), _ALPHAS
+    ),
+    "crossing, views at the horizon": Branch(
+        FUNCTIONS["crossing_probability"], _crossing_at_horizon("view", o=_slanted(0.25)), _ALPHAS
+    ),
+    "series of log(1 + z) / z": Branch(FUNCTIONS["log1p_over"], _number("number"), (0.01,)),
+    "series of 1 - exp(x)": Branch(FUNCTIONS["one_minus_exp"], _number("log_u"), (-0.01,)),
+    "Stirling's remainder at its ends": Branch(FUNCTIONS["stirling_remainder"], _part, (0.0, 1.0)),
     "escapes at the horizon": Branch(
         FUNCTIONS["escape_chance"], _at_horizon("o", 4.0, log_u=-0.5), _ALPHAS
     ),
@@ -147,6 +182,9 @@ BRANCHES = {
     ),
     "critical angle": Branch(FUNCTIONS["dielectric_fresnel"], _critical, _ETAS),
     "refraction at the critical angle": Branch(FUNCTIONS["refracted"], _critical_ray, _ETAS),
+    "glass, cosine 0.7": Branch(
+        FUNCTIONS["dielectric_fresnel"], _steeper_than_half, (*_ETAS, 0.72, 1.0001, 5.0)
+    ),
     "glass that is hardly there": Branch(
         FUNCTIONS["dielectric_fresnel"], _index_near_one, (single(1e-4), 0.125, 1.0)
     ),

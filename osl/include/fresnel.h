@@ -56,17 +56,19 @@ color conductor_fresnel(Conductor metal, float cosine)
 
 // Unpolarised reflectance of a dielectric; `eta` is the index beyond the facet over that on the
 // path's side. With g = eta cos(theta_t) Fresnel's differences c - g and eta^2 c - g are multiplied
-// out, which keeps their digits for eta near 1.
+// out, which keeps their digits for eta near 1; g^2 = eta^2 - sin^2 = eta^2 - 1 + cos^2 is taken
+// from the smaller square, which keeps its digits for eta near 0.
 float dielectric_fresnel(float eta, float cosine)
 {
-  float rise = (eta - 1) * (eta + 1);
-  float g2 = rise + cosine * cosine;
+  float rise = (eta - 1) * (eta + 1), eta2 = eta * eta;
+  float sin2 = (1 - cosine) * (1 + cosine);
+  float g2 = (cosine > 0.7) ? eta2 - sin2 : rise + cosine * cosine;
   if (g2 <= 0)
     return (rise == 0) ? 0 : 1;
-  float g = sqrt(g2), eta2 = eta * eta;
+  float g = sqrt(g2);
   float sum_s = cosine + g, sum_p = eta2 * cosine + g;
   float s = rise / (sum_s * sum_s);
-  float p = rise * ((eta2 + 1) * cosine * cosine - 1) / (sum_p * sum_p);
+  float p = rise * (eta2 * cosine * cosine - sin2) / (sum_p * sum_p);
   return min(0.5 * (s * s + p * p), 1);
 }
 

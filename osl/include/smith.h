@@ -41,13 +41,33 @@ Incidence incidence(Microsurface surface, vector v)
   return arrival;
 }
 
+// log(1 + z) / z for z >= 0; 1 + z would lose the digits of a small z.
+float log1p_over(float z)
+{
+  return (z > 0.01) ? log(1 + z) / z : 1 - z * (0.5 - z * (1 / 3.0 - 0.25 * z));
+}
+
+// 1 - exp(x); near 0 OSL's expm1 has steps of 6e-8.
+float one_minus_exp(float x)
+{
+  return (abs(x) > 0.01) ? -expm1(x) : -x * (1 + x * (0.5 + x * (1 / 6.0 + x / 24)));
+}
+
+// log(1 - x) for x in [0, 1] and `rest` = 1 - x, as -log(1 + x / rest): keeps the digits of a small
+// x, and of a small rest where that is known better than as a difference.
+float log_of_rest(float x, float rest)
+{
+  float odds = x / max(rest, 1e-37);
+  return -odds * log1p_over(odds);
+}
+
 // Heights are carried as the logarithm of their distribution function u in (0, 1], seen from the
 // path's side of the surface: 0 at the top.
 
 // The same height seen from the other side: log(1 - u).
 float height_from_below(float log_u)
 {
-  return log(max(-expm1(log_u), 1e-37));
+  return log_of_rest(exp(log_u), one_minus_exp(log_u));
 }
 
 // The height where a path from `arrival` meets a surface of which it knows nothing: u has density
@@ -66,8 +86,8 @@ float next_height(Microsurface surface, vector o, float log_u, float number)
   float back = max(-o[2], 0) + projected_excess(surface, o);
   float rise;
   if (o[2] > 0) {
-    float stays = -expm1(log_u * back / depth);
-    rise = -log(max(1 - number * stays, 1e-37));
+    float x = number * one_minus_exp(log_u * back / depth);
+    rise = -log_of_rest(x, 1 - x);
   }
   else
     rise = log(max(number, 1e-37));
@@ -102,12 +122,6 @@ float stirling_remainder(float p)
   float p2 = p * p;
   float tail = 1 + (195 / 371.0) * p2 / (1 + (22999 / 22737.0) * p2 / (1 + 1.5144 * p2));
   return p / (12 + 0.4 * p2 / (1 + (53 / 210.0) * p2 / tail));
-}
-
-// log(1 + z) / z for z >= 0; 1 + z would lose the digits of a small z.
-float log1p_over(float z)
-{
-  return (z > 0.01) ? log(1 + z) / z : 1 - z * (0.5 - z * (1 / 3.0 - 0.25 * z));
 }
 
 // The chance that a path refracted to `o`, in the frame of the other side, leaves there without

@@ -54,7 +54,7 @@ vector beckmann_visible_normal(vector w, float steep, vector u)
   float cosine = abs(w[2]);
   float sine = hypot(w[0], w[1]);
   float along, across;
-  if (u[2] < steep) {
+  if (u[2] < steep || steep == 1) {  // u[2] may be 1 as well
     float a = cosine / max(sine, 1e-4 * cosine);
     along = a + beckmann_tail_slope(a, u[0]);
     across = sqrt(-log(max(u[1], 1e-12))) * cos(M_2PI * u[2] / steep);
