@@ -79,6 +79,22 @@ closure color one_walk(Frame frame, Microsurface surface, Facet facet, vector wi
                      walker.below, walker.throughput);
 }
 
+// An upper bound of the energy that a white material sends on after its first bounce. Glass sends
+// light to and from both sides, and the most where a flat surface would refract it along the
+// horizon. Matte facets send light to the horizon whatever the view.
+float further_energy_bound(Microsurface surface, Facet facet, vector wi)
+{
+  if (facet.kind == DIFFUSE)
+    return (surface.beckmann ? 0.3 : 0.6) * max(surface.alpha_x, surface.alpha_y);
+  float bound = missing_energy_bound(surface, wi);
+  if (facet.kind == DIELECTRIC) {
+    float sine2 = (1 - wi[2] * wi[2]) / (facet.ior * facet.ior);
+    float z = 0.5 * sqrt(min(abs(1 - sine2), 1));
+    bound = max(bound, missing_energy_bound(surface, vector(sqrt(1 - z * z), 0, z)));
+  }
+  return bound;
+}
+
 // The material, by the steps of the accuracy ladder.
 closure color all_closures(Frame frame, Microsurface surface, Facet facet, vector wi,
                            Accuracy accuracy, output RandomStream stream)
@@ -91,7 +107,7 @@ closure color all_closures(Frame frame, Microsurface surface, Facet facet, vecto
   if (accuracy.only < 2)
     lobes = first_bounce(frame, surface, facet, wi, accuracy, stream);
   if (accuracy.quality > 0 && accuracy.only != 1 && accuracy.max_bounces > 1
-      && missing_energy_bound(surface, wi) > accuracy.tolerance)
+      && further_energy_bound(surface, facet, wi) > accuracy.tolerance)
     lobes = further_bounces(frame, surface, facet, wi, accuracy, stream) + lobes;
   return lobes;
 }
