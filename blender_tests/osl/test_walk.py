@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The walk (walk.h) and its random numbers (random.h) against the oracle's energies."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,7 @@ from blender_tests.oracle.walk import bounces
 from .probe import evaluate
 from .samples import DISTRIBUTIONS, SURFACE, widths
 
-COUNT = 40_000
+COUNT = 20_000
 STREAM = "RandomStream stream; stream.origin = point(where); stream.counter = 0;"
 ROUGH = [(0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
 GOLD = Conductor(F82Tint((0.9, 0.5, 0.1), (1.0, 1.0, 1.0)))
@@ -36,13 +38,26 @@ def shade(
     surface: Surface, theta: float, statements: str, includes: str = "walk.h", count: int = COUNT
 ) -> np.ndarray:
     """`statements` at `count` random points of a surface seen from `theta`, (count, 3)."""
-    return evaluate(
+    return shade_all([surface], theta, statements, includes, count)[0]
+
+
+def shade_all(
+    surfaces: list[Surface],
+    theta: float,
+    statements: str,
+    includes: str = "walk.h",
+    count: int = COUNT,
+) -> np.ndarray:
+    """The same of surfaces of one material in one picture, (surfaces, count, 3)."""
+    alpha = np.repeat([widths(surface) for surface in surfaces], count, axis=0)
+    found = evaluate(
         includes,
-        f"{SURFACE} {STREAM} {facet(surface.material)} {statements}",
-        alpha=np.tile(widths(surface), (count, 1)),
-        wi=np.tile(direction(theta, 0.6), (count, 1)),
-        where=np.random.default_rng(9).uniform(-10.0, 10.0, (count, 3)),
-    ).astype(float)
+        f"{SURFACE} {STREAM} {facet(surfaces[0].material)} {statements}",
+        alpha=alpha,
+        wi=np.tile(direction(theta, 0.6), (len(alpha), 1)),
+        where=np.random.default_rng(9).uniform(-10.0, 10.0, (len(alpha), 3)),
+    )
+    return found.reshape(len(surfaces), count, 3).astype(float)
 
 
 def agree(found: np.ndarray, wanted: np.ndarray) -> None:
@@ -51,49 +66,50 @@ def agree(found: np.ndarray, wanted: np.ndarray) -> None:
     assert np.all(np.abs(found.mean(axis=0) - wanted.mean(axis=0)) < 4.5 * error + 1e-6)
 
 
-@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
-@pytest.mark.parametrize("alpha", ROUGH)
 @pytest.mark.parametrize("theta", [0.2, 1.2])
-def test_chosen_vertices_carry_the_kept_energy(
-    distribution: str, alpha: tuple[float, float], theta: float
-) -> None:
+def test_chosen_vertices_carry_the_kept_energy(theta: float) -> None:
     """Weighted by `kept`, the directions of the vertices chosen among candidates have the moments
     of all vertices weighted by the energy that stays: where the weight goes and how it spreads."""
-    surface = Surface(*alpha, distribution, GOLD)
-    wi = np.tile(direction(theta, 0.6), (400_000, 1))
-    vertex = next(bounces(wi, Surface(*alpha, distribution), 1, np.random.default_rng(10)))
+    surfaces = [Surface(*alpha, kind, GOLD) for alpha, kind in product(ROUGH, DISTRIBUTIONS)]
     kept = (
         "float kept; Vertex chosen = sample_kept_vertex(surface, facet, incidence(surface, wi),"
         "walker_from(surface, wi, stream), next_numbers(stream), 8, 4, stream, kept);"
     )
-    agree(shade(surface, theta, kept + "result = kept * chosen.o;"), vertex.staying * vertex.o)
-    agree(
-        shade(surface, theta, kept + "result = kept * chosen.o * chosen.o;"),
-        vertex.staying * vertex.o**2,
-    )
+    first = shade_all(surfaces, theta, kept + "result = kept * chosen.o;", count=2 * COUNT)
+    squared = kept + "result = kept * chosen.o * chosen.o;"
+    second = shade_all(surfaces, theta, squared, count=2 * COUNT)
+    wi = np.tile(direction(theta, 0.6), (200_000, 1))
+    for surface, mean, square in zip(surfaces, first, second, strict=True):
+        white = Surface(surface.alpha_x, surface.alpha_y, surface.distribution)
+        vertex = next(bounces(wi, white, 1, np.random.default_rng(10)))
+        agree(mean, vertex.staying * vertex.o)
+        agree(square, vertex.staying * vertex.o**2)
 
 
-@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
-@pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("material", MATERIALS, ids=NAMES)
 @pytest.mark.parametrize("most", [1, 5])
-def test_energy_of_walks(distribution: str, model: str, material: Material, most: int) -> None:
+def test_energy_of_walks(material: Material, most: int) -> None:
     """Energies of up to 1 and 5 bounces, reflected and transmitted, are the oracle's."""
     theta = 0.9
-    surface = Surface(1.0, 0.5, distribution, material, model)
-    found = energies(direction(theta, 0.6), surface, most, 100_000, 11)
-    walked = shade(
-        surface,
+    surfaces = [
+        Surface(1.0, 0.5, distribution, material, model)
+        for distribution, model in product(DISTRIBUTIONS, MODELS)
+    ]
+    walked = shade_all(
+        surfaces,
         theta,
         "Walker walker = walker_from(surface, wi, stream);"
         f"vector o = walk_to_exit(surface, facet, 0, {most}, 0, 0, stream, walker);"
         "result = (walker.below ? -1 : 1) * vector(walker.throughput);",
     )
-    for sign, lobes in ((1.0, found.reflected), (-1.0, found.transmitted)):
-        side = np.maximum(sign * walked, 0.0)
-        wanted = lobes.mean.sum(axis=0)
-        error = np.sqrt(side.var(axis=0) / COUNT + lobes.variance.sum(axis=0))
-        assert np.all(np.abs(side.mean(axis=0) - wanted) < 4.5 * error + 1e-6)
+    for surface, weights in zip(surfaces, walked, strict=True):
+        found = energies(direction(theta, 0.6), surface, most, 50_000, 11)
+        for sign, lobes in ((1.0, found.reflected), (-1.0, found.transmitted)):
+            side = np.maximum(sign * weights, 0.0)
+            wanted = lobes.mean.sum(axis=0)
+            error = np.sqrt(side.var(axis=0) / COUNT + lobes.variance.sum(axis=0))
+            off = np.abs(side.mean(axis=0) - wanted)
+            assert np.all(off < 4.5 * error + 1e-6), f"{surface}, {sign:+.0f}"
 
 
 @pytest.mark.parametrize("material", [GOLD, Dielectric(1.5)], ids=["conductor", "glass"])
@@ -145,11 +161,12 @@ def test_random_numbers_are_uniform_and_independent() -> None:
 def test_lattice_points_are_uniform_and_spread() -> None:
     """Every point of the shifted lattice is uniform; 16 in a row fill each eighth of the cube."""
     shifts = np.random.default_rng(12).random((2000, 3))
-    point = [
-        evaluate("random.h", f"result = lattice_point({i}, shift);", shift=shifts)
-        for i in range(16)
-    ]
-    points = np.stack(point)
+    points = evaluate(
+        "random.h",
+        "result = lattice_point(int(index), shift);",
+        shift=np.tile(shifts, (16, 1)),
+        index=np.repeat(np.arange(16.0), 2000),
+    ).reshape(16, 2000, 3)
     assert np.all(np.abs(points.mean(axis=1) - 0.5) < 4.5 * np.sqrt(1 / 12 / 2000))
     octant = (points > 0.5) @ np.array([1, 2, 4])
     filled = np.array([len(np.unique(octant[:, k])) for k in range(2000)])

@@ -19,10 +19,12 @@ from scenes import common
 
 from .linked import linked_material, set_attribute
 
-ALPHAS = [Widths(a, a) for a in (1e-4, 0.01, 0.1, 0.5, 1.0)] + [Widths(1.0, 0.1)]
+ALPHAS = [Widths(a, a) for a in (1e-4, 0.1, 0.5, 1.0)] + [Widths(1.0, 0.1)]
 DISTRIBUTIONS = ("GGX", "Beckmann")
 MODELS = ("height-correlated", "height-uncorrelated", "height-tracked")
 INDICES = (1.0, 1.0001, 1.1, 1.5, 2.4, 5.0, 0.2)
+# From inside 5 is 0.2, 0.2 is 5, and 1 is 1.
+INSIDE = (1.0001, 1.1, 1.5, 2.4)
 LINKED = ("Roughness", "Anisotropy", "Distribution", "Model")
 WHITE = {
     "CONDUCTOR": pictures.WHITE,
@@ -65,7 +67,8 @@ def cases_of(kind: str) -> list[Case]:
     surfaces = product(ALPHAS, range(len(DISTRIBUTIONS)), range(len(MODELS)))
     if kind != "DIELECTRIC":
         return [Case(*surface) for surface in surfaces]
-    return [Case(*surface, *both) for surface in surfaces for both in product(INDICES, (0, 1))]
+    sides = [(index, False) for index in INDICES] + [(index, True) for index in INSIDE]
+    return [Case(*surface, *side) for surface in surfaces for side in sides]
 
 
 def build(kind: str, quality: str, cases: list[Case]) -> None:
