@@ -3,9 +3,9 @@
 
 The error is that of the converged picture, without the noise of its few samples
 (`pictures.unbiased_l2_error`); the references' own noise, at most 0.5 %, is part of it. Limits are
-the product's promises: matte surfaces 3 %, metal and glass 5 %, and 6 % where an alpha is below
-0.3. Reflection is measured where the sun shines on the side that is seen, transmission under a sun
-from behind and through a slab.
+the product's promises: matte surfaces 3 %, metal and glass 5 %, and 10 % where an anisotropic
+surface refracts. Reflection is measured where the sun shines on the side that is seen, transmission
+under a sun from behind and through a slab.
 """
 
 from dataclasses import dataclass
@@ -23,8 +23,9 @@ SAMPLES_OF_DIM_REFLECTIONS = 256
 SAMPLES_OF_WIDE_REFRACTIONS = 768
 SAMPLES_OF_FIRST_BOUNCES = 48
 LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
-# Of surfaces whose narrower alpha is below 0.3, as for metal (test_sphere_sun.py).
-LIMIT_OF_NARROW = 0.06
+# Of refraction by a surface whose narrower alpha is below 0.3: Cycles' refraction is isotropic, so
+# that its lobes are as wide one way as the other.
+LIMIT_OF_NARROW_REFRACTION = 0.1
 # How the references' names call them. A white metal and glass of IOR 1.5 lose nothing.
 NAMES = {"CONDUCTOR": "white", "DIELECTRIC": "glass", "DIFFUSE": "diffuse"}
 OTHER_MODELS = ("height-uncorrelated", "height-tracked")
@@ -54,14 +55,16 @@ class Case:
         if self.kind == "DIELECTRIC" and self.widths.alpha_x == 1.0:
             if self.light == "sun":
                 return SAMPLES_OF_DIM_REFLECTIONS
-            if self.light == "back" and self.distribution == "GGX":
+            if self.light == "back":
                 return SAMPLES_OF_WIDE_REFRACTIONS
         return SAMPLES[self.light]
 
     @property
     def limit(self) -> float:
         """Of the error."""
-        return LIMIT_OF_NARROW if self.widths.alpha_y < 0.3 else LIMITS[self.kind]
+        if self.light == "back" and self.widths.alpha_y < 0.3:
+            return LIMIT_OF_NARROW_REFRACTION
+        return LIMITS[self.kind]
 
     @property
     def values(self) -> dict[str, object]:
@@ -92,7 +95,7 @@ CASES = [
     *_isotropic("slab", "DIELECTRIC", 0.1, 0.3, 0.6, 1.0),
 ]
 # The first bounce of the height-tracked model is the height-correlated one.
-# Refracted by GGX of alpha 1 it has too much noise to say more than all bounces do.
+# Refracted by a surface of alpha 1 it has too much noise to say more than all bounces do.
 FIRST_BOUNCES = [
     case
     for case in CASES
@@ -103,13 +106,13 @@ FIRST_BOUNCES = [
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.reference)
 def test_walk(case: Case, report) -> None:
     """All bounces."""
-    _hold("Walk", case, "mean", case.samples, report)
+    _hold("Walk", case, "mean", case.samples, case.limit, report)
 
 
 @pytest.mark.parametrize("case", FIRST_BOUNCES, ids=lambda case: case.reference)
 def test_first_bounce(case: Case, report) -> None:
-    """Bounce 1 alone against the oracle's own."""
-    _hold("bounce 1", case, "single", SAMPLES_OF_FIRST_BOUNCES, report, BounceOnly=1)
+    """Bounce 1 alone against the oracle's own, which is no promise: 5 % for all materials."""
+    _hold("bounce 1", case, "single", SAMPLES_OF_FIRST_BOUNCES, 0.05, report, BounceOnly=1)
 
 
 def test_walk_of_coloured_diffuse(report) -> None:
@@ -126,12 +129,19 @@ def test_walk_of_coloured_diffuse(report) -> None:
     assert abs(ratios - 1.0).max() < 0.02
 
 
-def _hold(what: str, case: Case, layer: str, samples: int, report, **values: object) -> None:
+def _hold(
+    what: str,
+    case: Case,
+    layer: str,
+    samples: int,
+    limit: float,
+    report,
+    **values: object,
+) -> None:
     wanted = pictures.reference(case.reference)
     mask, mean = wanted["mask"], wanted[layer]
     a, b = _pair(case.light, case.kind, samples, {**case.values, **values})
     error, spread = pictures.unbiased_l2_error(a, b, mean, mask)
-    limit = case.limit
     noisy = pictures.l2_error(a, mean, mask)
     energy = pictures.energy_ratio(0.5 * (a + b), mean, mask)
     report(

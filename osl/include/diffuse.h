@@ -10,12 +10,16 @@
 #define DIFFUSE_FACETS 16
 #define DIFFUSE_EXITS 8
 
+// Width of these exits relative to those of further bounces: their weights are small.
+#define EXIT_WIDTH 0.75
+
 // Most of the light is carried by two of Cycles' closures about the normal, which have no noise: a
 // ramp over the cosine z of the exit, z times the chance to leave, which is right where the view is
 // along the normal, and a part that grows with the mean slant of the visible facets of Oren and
 // Nayar's lobe, which is brighter towards the viewer. The rest is left to smoothed exits.
 #define KNOTS 8
 #define NAYAR_PER_SLANT 2
+#define SMALLEST_SHARE 0.5
 
 struct Carrier {
   float knots[KNOTS];  // of the ramp
@@ -96,11 +100,14 @@ closure color diffuse_first_bounce(Frame frame, Microsurface surface, Facet face
     if (share[i] > leave[i] / part)
       part = leave[i] / share[i];
   }
+  // Of few exits the least follows chance, the more so the less the carrier is like the surface.
+  if (surface.alpha_y < surface.alpha_x)
+    part *= mix(SMALLEST_SHARE, 1, surface.alpha_y / surface.alpha_x);
   closure color lobes = carrier_closures(frame, carrier, part * facet.tint);
   for (int i = 0; i < DIFFUSE_EXITS; ++i) {
     float rest = leave[i] - part * share[i];
     if (rest > 0)
-      lobes = smooth_exit(frame, surface, facet, kernel, 1, wi, exits[i], 0,
+      lobes = smooth_exit(frame, surface, facet, EXIT_WIDTH * kernel, 1, wi, exits[i], 0,
                           facet.tint * (rest / DIFFUSE_EXITS))
               + lobes;
   }

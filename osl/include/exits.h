@@ -23,15 +23,6 @@
 #define SMALLEST_FLAT_TURN 0.45
 #define HAIR_PER_KERNEL 0.5
 
-// Cycles bends a closure's normal n where the mirrored view would go below the geometric surface,
-// for refractions as well (material setting Bump Map Correction). True where it leaves n alone.
-int is_left_alone(Frame frame, vector wi, vector n)
-{
-  vector ground = to_local(frame, Ng);
-  float view = dot(wi, ground);
-  return 2 * dot(n, wi) * dot(n, ground) - view >= min(0.9 * view, 0.01);
-}
-
 // The part that lies on the exit's own side of the horizon of a lobe whose cosine to the normal has
 // the Gaussian density exp(-(x - z)^2 / spread^2) about z.
 float fraction_on_side(float z, float spread)
@@ -75,13 +66,14 @@ closure color hair_exit(Frame frame, vector wi, vector down, float width)
 // would bend it, or where the path turns too far.
 vector refracting_facet(Frame frame, vector wi, vector down, float turn, output float ior)
 {
+  vector ground = to_local(frame, Ng);
   ior = STEEP_IOR;
   vector facet = -normalize(wi + ior * down);
-  if (turn > SMALLEST_STEEP_TURN && is_left_alone(frame, wi, facet))
+  if (turn > SMALLEST_STEEP_TURN && is_left_alone(facet, wi, ground))
     return facet;
   ior = FLAT_IOR;
   facet = normalize(wi + ior * down);
-  if (turn > SMALLEST_FLAT_TURN && is_left_alone(frame, wi, facet))
+  if (turn > SMALLEST_FLAT_TURN && is_left_alone(facet, wi, ground))
     return facet;
   return vector(0);
 }

@@ -20,6 +20,28 @@ vector visible_normal(vector n, vector view)
   return (cosine >= MIN_VIEW_COSINE) ? n : normalize(n + (MIN_VIEW_COSINE - cosine) * view);
 }
 
+// Cycles bends the normal of a closure, a refraction's too, where the mirrored view would go below
+// the geometric surface (material setting Bump Map Correction). True where it leaves `n` alone.
+int is_left_alone(vector n, vector view, vector ground)
+{
+  float height = dot(view, ground);
+  return 2 * dot(n, view) * dot(n, ground) - height >= min(0.9 * height, 0.01);
+}
+
+// The normal that Cycles takes instead of `n`: turned towards the geometric one until the mirrored
+// view is just above the surface, so that view and mirrored view are equally far from it.
+vector corrected_normal(vector n, vector view, vector ground)
+{
+  vector along = n - dot(n, ground) * ground;
+  if (is_left_alone(n, view, ground) || dot(along, along) <= 0)
+    return n;
+  along = normalize(along);
+  float x = dot(view, along), z = dot(view, ground);
+  float lift = min(0.9 * z, 0.01);
+  float elevation = 0.5 * (acos(clamp(lift / hypot(x, z), -1, 1)) + atan2(x, z));
+  return sin(elevation) * along + cos(elevation) * ground;
+}
+
 // An arbitrary unit vector orthogonal to the unit vector `n`.
 vector any_tangent(vector n)
 {

@@ -60,7 +60,7 @@ Microsurface microsurface(float roughness, float anisotropy, int distribution, i
 Frame oriented_frame(Microsurface surface, vector n, vector fallback, vector given, float rotation,
                      vector view)
 {
-  vector z = visible_normal(direction(n, fallback), view);
+  vector z = corrected_normal(visible_normal(direction(n, fallback), view), view, Ng);
   vector tangent = any_tangent(z);
   if (surface.alpha_x != surface.alpha_y) {
     tangent = direction(given, direction(default_tangent(z), tangent));
