@@ -91,6 +91,14 @@ THINGS = {
         "showed more than the furnace: Cycles turns the first bounce's normal up to where it loses "
         "nothing to masking (Bump Map Correction), and walks about the other normal came on top",
     ),
+    "smooth glass of alpha 0": Picture(
+        replace(
+            _PLAIN,
+            kind="DIELECTRIC",
+            inputs=_GLASS | {"Quality": 0, "Distribution": 0, "Roughness": 0.0, "IOR": 2.0},
+        ),
+        "showed its refraction twice: the ratio of two NDFs of width 0 was 0",
+    ),
     "bumped glass that is hardly there": Picture(
         replace(_PLAIN, kind="DIELECTRIC", finish="textured", shape="slant", inputs=_GLASS),
         "showed more than the furnace where bumps turn the normal far from a grazing surface",

@@ -19,6 +19,9 @@
 // Widest Beckmann closure whose light beyond all facets (see refraction_carrier) is below 1 %.
 #define WIDEST_CARRIER 0.75
 
+// A product of alphas below 2e-10 is a mirror in Cycles.
+#define SMOOTH_TO_CYCLES 1.5e-5
+
 string distribution_name(Microsurface surface)
 {
   return surface.beckmann ? "beckmann" : "ggx";
@@ -144,8 +147,9 @@ closure color first_refraction(Frame frame, Microsurface surface, Facet facet, v
                * abs(dot(o, m) - cosine / facet.ior);
   }
   // Cycles does not sample a closure whose flat surface would refract nothing, and lets nothing be
-  // masked where the index hardly changes.
-  float part = dielectric_fresnel(facet.ior, wi[2]) < 0.5 && abs(facet.ior - 1) > 2e-4;
+  // masked where the index hardly changes or the surface is smooth.
+  float part = dielectric_fresnel(facet.ior, wi[2]) < 0.5 && abs(facet.ior - 1) > 2e-4
+               && carrier.alpha_x > SMOOTH_TO_CYCLES;
   part = possible_part(part, leave, most);
   closure color lobes = dielectric_bsdf(frame.z, frame.x, color(0), part * facet.tint,
                                         carrier.alpha_x, carrier.alpha_y, facet.ior, "beckmann");
