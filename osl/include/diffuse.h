@@ -19,7 +19,13 @@
 // Nayar's lobe, which is brighter towards the viewer. The rest is left to smoothed exits.
 #define KNOTS 8
 #define NAYAR_PER_SLANT 2
-#define SMALLEST_SHARE 0.5
+
+// Part of the carrier that is left where a surface is as anisotropic as can be.
+#define PART_OF_ANISOTROPIC 0.5
+
+// Cosine of the view below which the carrier fades out: Cycles samples it by the exit's cosine,
+// which is rarely where Oren and Nayar's lobe is bright for a view that grazes.
+#define GRAZING_VIEW 0.05
 
 struct Carrier {
   float knots[KNOTS];  // of the ramp
@@ -51,9 +57,8 @@ float carried(Carrier carrier, vector wi, vector o)
   float x = o[2] * (KNOTS - 1);
   int k = min(int(x), KNOTS - 2);
   float t = wi[0] * o[0] + wi[1] * o[1];
-  if (t > 0)
-    t /= max(wi[2], o[2]);
-  return mix(carrier.knots[k], carrier.knots[k + 1], x - k) + carrier.nayar * o[2] * (1 + t);
+  float lobe = o[2] + t * ((t > 0) ? o[2] / max(wi[2], o[2]) : o[2]);
+  return mix(carrier.knots[k], carrier.knots[k + 1], x - k) + carrier.nayar * lobe;
 }
 
 closure color carrier_closures(Frame frame, Carrier carrier, color weight)
@@ -97,12 +102,13 @@ closure color diffuse_first_bounce(Frame frame, Microsurface surface, Facet face
     for (int j = 0; j < DIFFUSE_FACETS; ++j)
       seen += max(dot(facets[j], exits[i]), 0) / DIFFUSE_FACETS;
     share[i] = (leave[i] > 0) ? carried(carrier, wi, exits[i]) / seen : 0;
-    if (share[i] > leave[i] / part)
+    if (part * share[i] > leave[i])
       part = leave[i] / share[i];
   }
-  // Of few exits the least follows chance, the more so the less the carrier is like the surface.
+  part *= min(wi[2] / GRAZING_VIEW, 1);
+  // The least of few exits follows chance, the more so the less the carrier is like the surface.
   if (surface.alpha_y < surface.alpha_x)
-    part *= mix(SMALLEST_SHARE, 1, surface.alpha_y / surface.alpha_x);
+    part *= mix(PART_OF_ANISOTROPIC, 1, surface.alpha_y / surface.alpha_x);
   closure color lobes = carrier_closures(frame, carrier, part * facet.tint);
   for (int i = 0; i < DIFFUSE_EXITS; ++i) {
     float rest = leave[i] - part * share[i];

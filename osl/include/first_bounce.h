@@ -16,7 +16,8 @@
 #define LOBE_PER_Z 0.14
 #define NARROWEST_LOBE 0.14
 
-// Widest Beckmann closure whose light beyond all facets (see refraction_carrier) is below 1 %.
+// Widest Beckmann closure that gives next to no light beyond all facets (see refraction_carrier):
+// of alpha 1 that is 7 % of a back-lit sphere, as image L2.
 #define WIDEST_CARRIER 0.75
 
 // A product of alphas below 2e-10 is a mirror in Cycles.
