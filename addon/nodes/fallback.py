@@ -7,7 +7,7 @@ GGX takes Cycles' own energy compensation, the nearest to further bounces; Beckm
 import bpy
 
 from ..core.kinds import Kind
-from .sockets import input_socket
+from .directions import Directions
 
 # Inputs of Cycles' Metallic BSDF, whose `fresnel_type` decides on the first two.
 _METAL_COLOR = {"F82": ("Base Color", "Edge Tint"), "PHYSICAL_CONDUCTOR": ("IOR", "Extinction")}
@@ -23,29 +23,28 @@ _DISTRIBUTIONS = ("MULTI_GGX", "BECKMANN")
 
 
 def make_fallback(
-    kind: Kind, group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node
+    kind: Kind,
+    group: bpy.types.ShaderNodeTree,
+    inputs: bpy.types.Node,
+    directions: Directions,
 ) -> bpy.types.NodeSocketShader:
     """Add the native material nearest to `kind`, wired to the group's inputs; return its output."""
-    geometry = group.nodes.new("ShaderNodeNewGeometry")
-    geometry.location = (-900, -250)
-    return _MAKERS[kind.identifier](group, inputs, geometry)
+    return _MAKERS[kind.identifier](group, inputs, directions)
 
 
 def _make_metal(
-    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node, geometry: bpy.types.Node
+    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node, directions: Directions
 ) -> bpy.types.NodeSocketShader:
     """Add Metallic BSDFs, mixed by Distribution and Fresnel."""
-    normal = _make_direction(group, inputs.outputs["Normal"], geometry.outputs["Normal"], -500)
-    tangent = _make_direction(group, inputs.outputs["Tangent"], geometry.outputs["Tangent"], -800)
 
     def metal(distribution: str, fresnel: str, y: float) -> bpy.types.NodeSocketShader:
         node = group.nodes.new("ShaderNodeBsdfMetallic")
         node.distribution, node.fresnel_type = distribution, fresnel
         _link_inputs(group, inputs, (*_METAL_COLOR[fresnel], *_METAL_SURFACE), node)
-        group.links.new(normal, node.inputs["Normal"])
+        group.links.new(directions.normal, node.inputs["Normal"])
         node.label = f"Fallback {distribution} {fresnel}"
         node.location = (-200, y)
-        group.links.new(tangent, node.inputs["Tangent"])
+        group.links.new(directions.tangent, node.inputs["Tangent"])
         return node.outputs[0]
 
     mixed = []
@@ -56,16 +55,15 @@ def _make_metal(
 
 
 def _make_glass(
-    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node, geometry: bpy.types.Node
+    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node, directions: Directions
 ) -> bpy.types.NodeSocketShader:
     """Add Glass BSDFs, mixed by Distribution. Cycles' glass has no anisotropy."""
-    normal = _make_direction(group, inputs.outputs["Normal"], geometry.outputs["Normal"], -500)
     glasses = []
     for distribution, y in zip(_DISTRIBUTIONS, (0, -300), strict=True):
         node = group.nodes.new("ShaderNodeBsdfGlass")
         node.distribution = distribution
         _link_inputs(group, inputs, ("Color", "IOR", "Roughness"), node)
-        group.links.new(normal, node.inputs["Normal"])
+        group.links.new(directions.normal, node.inputs["Normal"])
         node.label = f"Fallback {distribution}"
         node.location = (-200, y)
         glasses.append(node.outputs[0])
@@ -73,13 +71,12 @@ def _make_glass(
 
 
 def _make_matte(
-    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node, geometry: bpy.types.Node
+    group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node, directions: Directions
 ) -> bpy.types.NodeSocketShader:
     """Add a Diffuse BSDF, which has neither distributions nor anisotropy.
 
     Its Roughness is Oren and Nayar's, which flattens the shading much sooner than ours.
     """
-    normal = _make_direction(group, inputs.outputs["Normal"], geometry.outputs["Normal"], -500)
     roughness = group.nodes.new("ShaderNodeMath")
     roughness.operation = "MULTIPLY"
     roughness.label = "Oren-Nayar Roughness"
@@ -91,7 +88,7 @@ def _make_matte(
     node.location = (-200, 0)
     _link_inputs(group, inputs, ("Color",), node)
     group.links.new(roughness.outputs[0], node.inputs["Roughness"])
-    group.links.new(normal, node.inputs["Normal"])
+    group.links.new(directions.normal, node.inputs["Normal"])
     return node.outputs[0]
 
 
@@ -121,46 +118,3 @@ def _make_mix(
     for source, socket in zip((factor, *closures), node.inputs, strict=True):
         group.links.new(source, socket)
     return node.outputs[0]
-
-
-def _make_direction(
-    group: bpy.types.ShaderNodeTree,
-    given: bpy.types.NodeSocketVector,
-    default: bpy.types.NodeSocketVector,
-    y: float,
-) -> bpy.types.NodeSocketVector:
-    """Add nodes that pass on `given`, or `default` where it is no direction; return their output.
-
-    A native material is black where its normal or tangent has length 0, as from a UV map that is
-    missing, or where a component is not finite.
-    """
-    nodes, links = group.nodes, group.links
-    # After this the length is 1; it stays 0 for zero, and infinities become NaN.
-    unit = nodes.new("ShaderNodeVectorMath")
-    unit.operation = "NORMALIZE"
-    unit.location = (-900, y)
-    links.new(given, unit.inputs[0])
-    length = nodes.new("ShaderNodeVectorMath")
-    length.operation = "LENGTH"
-    length.location = (-750, y)
-    links.new(unit.outputs["Vector"], length.inputs[0])
-    # No comparison with NaN is true.
-    usable = nodes.new("ShaderNodeMath")
-    usable.operation = "GREATER_THAN"
-    usable.location = (-600, y)
-    usable.inputs[1].default_value = 0.5
-    links.new(length.outputs["Value"], usable.inputs[0])
-    # Division by 0 gives 0 here, so that no NaN reaches the mix, where 0 times NaN is NaN.
-    finite = nodes.new("ShaderNodeVectorMath")
-    finite.operation = "DIVIDE"
-    finite.location = (-600, y - 150)
-    links.new(given, finite.inputs[0])
-    links.new(usable.outputs[0], finite.inputs[1])
-    mix = nodes.new("ShaderNodeMix")
-    mix.data_type = "VECTOR"
-    mix.label = f"{given.name} or Default"
-    mix.location = (-400, y)
-    links.new(usable.outputs[0], input_socket(mix, "Factor_Float"))
-    links.new(default, input_socket(mix, "A_Vector"))
-    links.new(finite.outputs["Vector"], input_socket(mix, "B_Vector"))
-    return next(s for s in mix.outputs if s.identifier == "Result_Vector")

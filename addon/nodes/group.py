@@ -16,6 +16,7 @@ from ..core.kinds import Kind, kind_named
 from ..core.parameter import Parameter
 from ..core.parameters import FRESNEL_PANEL
 from ..core.shader_source import ShaderSourceError, inlined_source
+from .directions import make_directions
 from .fallback import make_fallback
 from .script import OslUnavailableError, ShaderCompileError, compile_source, fill_script_node
 from .sockets import SOCKET_TYPES, input_socket, socket_value
@@ -27,9 +28,9 @@ STAMP_KEY = "microbounce_stamp"
 # What making the group raises on a damaged installation or a full disk; the message is for users.
 GROUP_ERRORS = (ShaderSourceError, ShaderCompileError, ValueError, OSError)
 
-# Raise it when other sockets, nodes, settings or links are made, here or in fallback.py: files then
+# Raise it when other sockets, nodes, settings or links are made, here or by the makers: files then
 # take the new group beside their old one. A test knows what each number stands for.
-GROUP_REVISION = 2
+GROUP_REVISION = 3
 
 _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
 
@@ -198,13 +199,17 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, kind: Kind, source: str, byteco
     _fill_script(script, kind, source, bytecode)
     for parameter in kind.parameters:
         links.new(inputs.outputs[parameter.label], input_socket(script, parameter.identifier))
+    # The tangent about the object's z axis needs generated coordinates, which Cycles makes only for
+    # native nodes that ask for them.
+    directions = make_directions(group, inputs)
+    links.new(directions.tangent, input_socket(script, "Tangent"))
 
     switch = nodes.new("ShaderNodeMixShader")
     switch.name = switch.label = "Fallback Unless Active"
     switch.location = (600, 100)
     switch.inputs[0].default_value = 0.0
     links.new(script.outputs["Active"], switch.inputs[0])
-    links.new(make_fallback(kind, group, inputs), switch.inputs[1])
+    links.new(make_fallback(kind, group, inputs, directions), switch.inputs[1])
     links.new(script.outputs["BSDF"], switch.inputs[2])
 
     output = nodes.new("NodeGroupOutput")

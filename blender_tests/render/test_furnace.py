@@ -31,7 +31,7 @@ SAMPLES = {"Exact": 8, "Walk": 128}
 SAMPLES_OF_ROUGHEST = {"Exact": 8, "Walk": 384}
 # Inside glass, where facets near the critical angle reflect far more than a flat surface, Cycles
 # samples its own reflection too seldom.
-SAMPLES_INSIDE = {"Exact": 8, "Walk": 512}
+SAMPLES_INSIDE = {"Exact": 8, "Walk": 1024}
 
 by_quality = pytest.mark.parametrize("quality", PROMISES)
 by_distribution = pytest.mark.parametrize("distribution", DISTRIBUTIONS)

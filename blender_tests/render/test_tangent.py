@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where no tangent is linked the anisotropy lies as on Cycles' own Metallic BSDF."""
+"""Where no tangent is linked the anisotropy lies as on Cycles' own materials."""
 
 import bpy
 import numpy as np
 import pytest
 
+from addon.core.kinds import KINDS
 from addon.nodes.group import new_material
 from scenes import common
 
 from . import pictures
 
 SIZE = 32
+EVERYWHERE = np.ones((SIZE, SIZE), dtype=bool)
 
 
 def _sphere(material: bpy.types.Material) -> bpy.types.Object:
@@ -44,6 +46,20 @@ def _hair(material: bpy.types.Material) -> bpy.types.Object:
     return common.add_object("Strands", strands)
 
 
+def _start(scale: float = 1.0) -> None:
+    """A camera and a sun in an empty scene; lengths are `scale`."""
+    scene = common.start_scene((SIZE, SIZE), samples=64)
+    common.set_world(scene, (0.1, 0.1, 0.1))
+    scene.cycles.max_bounces = 0
+    camera = common.add_front_camera(scene)
+    camera.data.ortho_scale *= scale
+    camera.location *= scale
+    camera.data.clip_start, camera.data.clip_end = 0.01 * scale, 20.0 * scale
+    light = bpy.data.lights.new("Sun", "SUN")
+    light.angle = 0.5
+    common.aim(common.add_object("Sun", light), (-0.6, 0.7, -0.5))
+
+
 @pytest.mark.parametrize("make", [_sphere, _curve, _hair], ids=["sphere", "tube", "hair"])
 @pytest.mark.parametrize(("scale", "rotation"), [(1.0, 0.0), (1e-5, 0.0), (1.0, 0.15)])
 def test_default_tangent_is_cycles(make, scale: float, rotation: float) -> None:
@@ -51,10 +67,7 @@ def test_default_tangent_is_cycles(make, scale: float, rotation: float) -> None:
 
     Both are the same GGX closure; 1 % is the noise of their different random numbers.
     """
-    scene = common.start_scene((SIZE, SIZE), samples=64)
-    common.set_world(scene, (0.1, 0.1, 0.1))
-    scene.cycles.max_bounces = 0
-    camera = common.add_front_camera(scene)
+    _start(scale)
     values = {"Roughness": 0.6, "Anisotropy": 0.9, "Rotation": rotation, "Quality": "Single"}
     metal = new_material("CONDUCTOR", "Metal", **values)
     native = new_material("CONDUCTOR", "Native", **values)
@@ -67,18 +80,34 @@ def test_default_tangent_is_cycles(make, scale: float, rotation: float) -> None:
     native.node_tree.links.new(metallic.outputs[0], output.inputs["Surface"])
     added = make(metal)
     added.scale = (scale, scale, scale)
-    camera.data.ortho_scale *= scale
-    camera.location *= scale
-    camera.data.clip_start, camera.data.clip_end = 0.01 * scale, 20.0 * scale
-    light = bpy.data.lights.new("Sun", "SUN")
-    light.angle = 0.5
-    common.aim(common.add_object("Sun", light), (-0.6, 0.7, -0.5))
 
     ours = pictures.picture(64)
     added.data.materials[0] = native
     for modifier in added.modifiers:
         modifier.node_group.nodes["Set Material"].inputs["Material"].default_value = native
     theirs = pictures.picture(64)
-    everywhere = np.ones((SIZE, SIZE), dtype=bool)
     assert theirs.max() > 0.1
-    assert pictures.l2_error(ours, theirs, everywhere) < 0.01
+    assert pictures.l2_error(ours, theirs, EVERYWHERE) < 0.01
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_default_tangent_is_about_the_z_axis(kind: str) -> None:
+    """Alone in its file each material finds what Cycles' Tangent node gives, linked to it.
+
+    The random numbers are the same, and a quarter of a turn must make a difference.
+    """
+    _start()
+    material = new_material(kind, "Alone", Roughness=0.6, Anisotropy=0.9, Quality="Walk")
+    common.add_unit_sphere(material)
+    tree = material.node_tree
+    inputs = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup").inputs
+    inputs["Rotation"].default_value = 0.25
+    turned = pictures.picture(64)
+    inputs["Rotation"].default_value = 0.0
+    default = pictures.picture(64)
+    tangent = tree.nodes.new("ShaderNodeTangent")
+    tangent.direction_type, tangent.axis = "RADIAL", "Z"
+    tree.links.new(tangent.outputs[0], inputs["Tangent"])
+    linked = pictures.picture(64)
+    assert pictures.l2_error(default, linked, EVERYWHERE) < 0.01
+    assert pictures.l2_error(default, turned, EVERYWHERE) > 0.05

@@ -66,14 +66,13 @@ closure color hair_exit(Frame frame, vector wi, vector down, float width)
 // would bend it, or where the path turns too far.
 vector refracting_facet(Frame frame, vector wi, vector down, float turn, output float ior)
 {
-  vector ground = to_local(frame, Ng);
   ior = STEEP_IOR;
   vector facet = -normalize(wi + ior * down);
-  if (turn > SMALLEST_STEEP_TURN && is_left_alone(facet, wi, ground))
+  if (turn > SMALLEST_STEEP_TURN && is_left_alone(facet, wi, frame.ground))
     return facet;
   ior = FLAT_IOR;
   facet = normalize(wi + ior * down);
-  if (turn > SMALLEST_FLAT_TURN && is_left_alone(facet, wi, ground))
+  if (turn > SMALLEST_FLAT_TURN && is_left_alone(facet, wi, frame.ground))
     return facet;
   return vector(0);
 }

@@ -7,6 +7,8 @@ struct Frame {
   vector x;
   vector y;
   vector z;
+  // bending_ground() in these coordinates.
+  vector ground;
 };
 
 // Smallest cosine between the viewer and the macro-normal. Smooth and bumped normals can turn away
@@ -18,6 +20,15 @@ vector visible_normal(vector n, vector view)
 {
   float cosine = dot(n, view);
   return (cosine >= MIN_VIEW_COSINE) ? n : normalize(n + (MIN_VIEW_COSINE - cosine) * view);
+}
+
+// The geometric normal, up to which Cycles bends the normals of closures; zero on curves, where it
+// bends none.
+vector bending_ground()
+{
+  float is_curve = 0;
+  getattribute("geom:is_curve", is_curve);
+  return (is_curve != 0) ? vector(0) : Ng;
 }
 
 // Cycles bends the normal of a closure, a refraction's too, where the mirrored view would go below

@@ -26,21 +26,6 @@ vector direction(vector value, vector fallback)
   return (isfinite(squared) && squared > 0) ? value / sqrt(squared) : fallback;
 }
 
-// The tangent Cycles takes where none is given, of any length: about the object's z axis, from the
-// generated coordinates; on curves and points, and without those, along the surface's parameter u.
-vector default_tangent(vector n)
-{
-  point generated;
-  float is_curve = 0, is_point = 0;
-  getattribute("geom:is_curve", is_curve);
-  getattribute("geom:is_point", is_point);
-  if (is_curve == 0 && is_point == 0 && getattribute("geom:generated", generated)) {
-    vector around = vector(0.5 - generated[1], generated[0] - 0.5, 0);
-    return cross(n, cross(transform("object", "world", around), n));
-  }
-  return dPdu;
-}
-
 // The rough surface of Cycles' Metallic BSDF: alpha = roughness^2, spread by the aspect and limited
 // to 1.
 Microsurface microsurface(float roughness, float anisotropy, int distribution, int model)
@@ -60,15 +45,18 @@ Microsurface microsurface(float roughness, float anisotropy, int distribution, i
 Frame oriented_frame(Microsurface surface, vector n, vector fallback, vector given, float rotation,
                      vector view)
 {
-  vector z = corrected_normal(visible_normal(direction(n, fallback), view), view, Ng);
+  vector ground = bending_ground();
+  vector z = corrected_normal(visible_normal(direction(n, fallback), view), view, ground);
   vector tangent = any_tangent(z);
   if (surface.alpha_x != surface.alpha_y) {
-    tangent = direction(given, direction(default_tangent(z), tangent));
+    tangent = direction(given, direction(dPdu, tangent));
     float turns = legal(rotation, -1e3, 1e3, 0);
     if (turns != 0)
       tangent = rotate(tangent, turns * M_2PI, point(0), point(z));
   }
-  return shading_frame(z, tangent);
+  Frame frame = shading_frame(z, tangent);
+  frame.ground = to_local(frame, ground);
+  return frame;
 }
 
 Accuracy legal_accuracy(int quality, int max_bounces, int only, float tolerance, int walks,
