@@ -13,7 +13,7 @@ from tools.timing import SampleTimes, time_samples
 
 from . import pictures
 
-ROUNDS = 5
+ROUNDS = 7
 PERCENTAGE = 50  # of the showcase's width and height
 CYCLES = "Cycles Multiscatter GGX"
 LARGEST_RATIO_TO_GLASS = 2.5
@@ -27,7 +27,7 @@ def test_walk_costs_at_most_twice_single(report) -> None:
         quality: lambda quality=quality: variants.use_quality(metals, quality)
         for quality in ("Single", "Walk", "Exact")
     }
-    times = time_samples(bpy.context.scene, switches, samples=8, rounds=ROUNDS)
+    times = time_samples(bpy.context.scene, switches, samples=32, rounds=ROUNDS)
     _report("showcase", times, "Walk", "Single", "2.0", report)
     _report("showcase", times, "Exact", "Single", "", report)
     assert times.ratio("Walk", "Single") <= 2.0
@@ -40,7 +40,7 @@ def test_walk_costs_at_most_two_and_a_half_times_cycles_glass(roughness: float, 
     A lone sphere in a uniform world is told beside it, without a limit: it is nothing but closures,
     so that its ratio is far higher than that of a picture, in which rays take time as well.
     """
-    showcase = _time_glass(_showcase_of_glass(roughness), samples=8)
+    showcase = _time_glass(_showcase_of_glass(roughness), samples=16)
     name = f"showcase of glass, roughness {roughness}"
     _report(name, showcase, "Walk", CYCLES, str(LARGEST_RATIO_TO_GLASS), report)
     lone = _time_glass(_lone_sphere(roughness), samples=16)
