@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times the samples of a render, without the time that its start takes."""
+"""Times the samples of a render, without the time that its start takes.
+
+Times are those that all threads spend computing, which other work on the machine hardly changes.
+"""
 
 import statistics
 import time
@@ -11,7 +14,7 @@ import bpy
 
 @dataclass(frozen=True)
 class SampleTimes:
-    """Seconds per sample of several variants, measured in interleaved rounds.
+    """Seconds of processor time per sample of several variants, measured in interleaved rounds.
 
     seconds -- by name of the variant, one figure a round, in the order of the rounds
     """
@@ -42,7 +45,7 @@ def time_samples(
     samples: int = 16,
     rounds: int = 5,
 ) -> SampleTimes:
-    """Measure the seconds per sample of every variant of `scene`.
+    """Measure the seconds of processor time per sample of every variant of `scene`.
 
     variants -- by name, what to call to switch the scene to the variant
     samples  -- number of samples that are timed, 1 or more
@@ -77,8 +80,8 @@ def time_samples(
 
 
 def _render(scene: bpy.types.Scene, samples: int) -> float:
-    """Render without writing a picture; return the seconds it took."""
+    """Render without writing a picture; return the seconds that all threads computed."""
     scene.cycles.samples = samples
-    begin = time.perf_counter()
+    begin = time.process_time()
     bpy.ops.render.render(write_still=False, scene=scene.name)
-    return time.perf_counter() - begin
+    return time.process_time() - begin
