@@ -101,7 +101,7 @@ closure color all_closures(Frame frame, Microsurface surface, Facet facet, vecto
 {
   closure color lobes = 0;
   // A path goes through glass many times, most of them after bounces that have spread it already.
-  int one = facet.kind == DIELECTRIC && accuracy.quality == 2 && !raytype("camera");
+  int one = facet.kind == DIELECTRIC && accuracy.quality > 0 && !raytype("camera");
   if (one || accuracy.quality == 3)
     return one_walk(frame, surface, facet, wi, accuracy, stream);
   if (accuracy.only < 2)

@@ -5,6 +5,7 @@
 #define MICROBOUNCE_DIFFUSE_H
 
 #include "exits.h"
+#include "ramp.h"
 #include "walk.h"
 
 #define DIFFUSE_FACETS 16
@@ -17,7 +18,6 @@
 // ramp over the cosine z of the exit, z times the chance to leave, which is right where the view is
 // along the normal, and a part that grows with the mean slant of the visible facets of Oren and
 // Nayar's lobe, which is brighter towards the viewer. The rest is left to smoothed exits.
-#define KNOTS 8
 #define NAYAR_PER_SLANT 2
 
 // Part of the carrier that is left where a surface is as anisotropic as can be.
@@ -47,10 +47,6 @@ Carrier diffuse_carrier(Microsurface surface, Incidence arrival, vector mean_fac
   return carrier;
 }
 
-// Oren and Nayar's lobe of roughness 1 as Cycles has it (Fujii's form), without interreflection:
-// z (1 + t) / NAYAR_NORM per unit of cosine density z / pi.
-#define NAYAR_NORM (1.5 - 2 / (3 * M_PI))
-
 // pi times the carrier's BSDF times cosine.
 float carried(Carrier carrier, vector wi, vector o)
 {
@@ -65,12 +61,8 @@ closure color carrier_closures(Frame frame, Carrier carrier, color weight)
 {
   color ramp[KNOTS];
   for (int k = 0; k < KNOTS; ++k)
-    ramp[k] = color(carrier.knots[k]);
-  // The closure's own interreflection grows with the square of the albedo it is given.
-  float albedo = 1e-4;
-  return weight * diffuse_ramp(frame.z, ramp)
-         + (weight * (carrier.nayar * NAYAR_NORM / albedo))
-               * oren_nayar_diffuse_bsdf(frame.z, color(albedo), 1);
+    ramp[k] = weight * carrier.knots[k];
+  return ramp_lobe(frame.z, ramp, 1) + nayar_lobe(frame.z, weight * carrier.nayar);
 }
 
 closure color diffuse_first_bounce(Frame frame, Microsurface surface, Facet facet, float kernel,

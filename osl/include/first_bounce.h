@@ -23,16 +23,12 @@
 // A product of alphas below 2e-10 is a mirror in Cycles.
 #define SMOOTH_TO_CYCLES 1.5e-5
 
-string distribution_name(Microsurface surface)
-{
-  return surface.beckmann ? "beckmann" : "ggx";
-}
-
-// The largest part of the carrier, at most `part`, that is nowhere brighter than what leaves.
-float possible_part(float part, float leave[FACETS], float carried[FACETS])
+// The largest part of the carrier, at most `part`, that at none of the facets is brighter than what
+// leaves.
+float possible_part(float part, float leave[FACETS], float carried[FACETS], int facets)
 {
   float possible = part;
-  for (int i = 0; i < FACETS; ++i)
+  for (int i = 0; i < facets; ++i)
     if (possible * carried[i] > leave[i])
       possible = leave[i] / carried[i];
   return possible;
@@ -69,7 +65,7 @@ closure color uncorrelated_reflection(Frame frame, Microsurface surface, Facet f
     leave[i] = exit_probability(surface, arrival, exits[i]);
     carried[i] = exit_probability(correlated, arrival, exits[i]);
   }
-  float part = possible_part(1, leave, carried);
+  float part = possible_part(1, leave, carried, FACETS);
   closure color lobes = whole_reflection(frame, surface, facet, part);
   for (int i = 0; i < FACETS; ++i) {
     float rest = leave[i] - part * carried[i];
@@ -122,9 +118,9 @@ float largest_ndf_ratio(Microsurface carrier, Microsurface surface)
 }
 
 // Refraction, for which Cycles' closures have the wrong masking: too bright by a fourth where
-// Lambda is 1/2.
+// Lambda is 1/2. `facets`: how many of them, at most FACETS.
 closure color first_refraction(Frame frame, Microsurface surface, Facet facet, vector wi,
-                               output RandomStream stream)
+                               int facets, output RandomStream stream)
 {
   Microsurface carrier = refraction_carrier(surface);
   Incidence arrival = incidence(surface, wi), carrier_arrival = incidence(carrier, wi);
@@ -134,7 +130,7 @@ closure color first_refraction(Frame frame, Microsurface surface, Facet facet, v
   vector exits[FACETS];
   float sent[FACETS], width[FACETS], leave[FACETS], carried[FACETS], most[FACETS];
   float largest = largest_ndf_ratio(carrier, surface);
-  for (int i = 0; i < FACETS; ++i) {
+  for (int i = 0; i < facets; ++i) {
     vector m = sample_visible_normal(surface, arrival, lattice_point(i, shift));
     float cosine = clamp(dot(wi, m), 0, 1);
     vector o = refracted(wi, m, cosine, facet.ior);
@@ -151,16 +147,22 @@ closure color first_refraction(Frame frame, Microsurface surface, Facet facet, v
   // masked where the index hardly changes or the surface is smooth.
   float part = dielectric_fresnel(facet.ior, wi[2]) < 0.5 && abs(facet.ior - 1) > 2e-4
                && carrier.alpha_x > SMOOTH_TO_CYCLES;
-  part = possible_part(part, leave, most);
+  part = possible_part(part, leave, most, facets);
   closure color lobes = dielectric_bsdf(frame.z, frame.x, color(0), part * facet.tint,
                                         carrier.alpha_x, carrier.alpha_y, facet.ior, "beckmann");
-  for (int i = 0; i < FACETS; ++i) {
+  for (int i = 0; i < facets; ++i) {
     float rest = sent[i] * (leave[i] - part * carried[i]);
     if (rest > 0)
-      lobes = smooth_transmission(frame, wi, -exits[i], width[i], facet.tint * (rest / FACETS))
+      lobes = smooth_transmission(frame, wi, -exits[i], width[i], facet.tint * (rest / facets))
               + lobes;
   }
   return lobes;
+}
+
+closure color first_refraction(Frame frame, Microsurface surface, Facet facet, vector wi,
+                               output RandomStream stream)
+{
+  return first_refraction(frame, surface, facet, wi, FACETS, stream);
 }
 
 #endif

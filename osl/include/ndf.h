@@ -15,6 +15,12 @@ struct Microsurface {
   int model;
 };
 
+// Cycles' name for the distribution.
+string distribution_name(Microsurface surface)
+{
+  return surface.beckmann ? "beckmann" : "ggx";
+}
+
 // The direction as a surface with alpha 1 would see it (not normalised).
 vector stretch(Microsurface surface, vector w)
 {

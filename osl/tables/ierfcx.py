@@ -5,12 +5,9 @@ ierfcx(x) = exp(x^2) * integral of erfc from x to infinity = 1/sqrt(pi) - x exp(
 x >= 0. Written as that difference it cancels (it falls like 1/(2 sqrt(pi) x^2)); here it is
 t^2 P(t) with t = 1 / (1 + x/2), P a polynomial fitted for the least largest relative error.
 
-    python osl/tables/ierfcx.py            writes the header
-    python osl/tables/ierfcx.py --check    fails if the header is not what this script writes
+`python -m osl.tables` writes the header.
 """
 
-import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -85,20 +82,6 @@ def header() -> str:
     return TEMPLATE.format(error=error, highest=f"{coefficients[-1]:.9g}", steps=steps)
 
 
-def main() -> int:
-    """Write or check the header; return the exit code."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="fail if the header is out of date")
-    arguments = parser.parse_args()
-    text = header()
-    if not arguments.check:
-        HEADER.write_text(text, encoding="utf-8")
-        return 0
-    if not HEADER.is_file() or HEADER.read_text(encoding="utf-8") != text:
-        print(f"{HEADER.name} is not what {Path(__file__).name} writes: run make tables")
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def is_stale() -> bool:
+    """Return whether the header is not what this module writes."""
+    return not HEADER.is_file() or HEADER.read_text(encoding="utf-8") != header()

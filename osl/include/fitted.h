@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the Fitted steps of all materials share: closures from tables, without noise.
+#ifndef MICROBOUNCE_FITTED_H
+#define MICROBOUNCE_FITTED_H
+
+#include "closures.h"
+#include "ramp.h"
+
+// Tables are of height-correlated surfaces, for all bounces together, and of metal alone where the
+// surface is anisotropic.
+int is_fitted(Microsurface surface, Facet facet, Accuracy accuracy)
+{
+  return accuracy.quality == 1 && accuracy.only == 0 && surface.model == CORRELATED
+         && (facet.kind == CONDUCTOR || surface.alpha_x == surface.alpha_y);
+}
+
+// A cosine well below those of most facets that a bounce meets.
+#define LOW_COSINE 0.2
+
+// The mean of a metal's Fresnel factor over facets of many cosines, where Schlick's is that at
+// `cosine`: mixed from facets seen straight and at a low cosine. The factor at `cosine` itself
+// would be up to 0.01 too dark for metals that reflect less before they reflect all.
+color mean_facet_weight(Facet facet, float cosine)
+{
+  float low = min(pow((1 - cosine) / (1 - LOW_COSINE), 5), 1);
+  return mix(facet_weight(facet, 1), facet_weight(facet, LOW_COSINE), low);
+}
+
+// The light of `count` bounces of which each has the factor `each` and leaves the part `rest` for
+// the next, over what endless white ones send, without the factor of the first.
+color successive_bounces(color each, float rest, int count)
+{
+  color kept = rest * each;
+  return ((1 - rest) / (1 - kept)) * (1 - pow(kept, max(count, 0)));
+}
+
+// The factor on white light of bounces 3 to `max_bounces`.
+color later_bounces(color each, float rest, int max_bounces)
+{
+  return each * each * each * successive_bounces(each, rest, max_bounces - 2);
+}
+
+// Whether a surface shows its own lobes: to the camera, also by a sharp mirror.
+int is_seen()
+{
+  return raytype("camera") || raytype("singular");
+}
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Metal without noise: the first bounce is Cycles' own closure, further ones are a ramp about the
+// normal and a reflection, or go the way of the first where the surface is not seen.
+#ifndef MICROBOUNCE_FITTED_CONDUCTOR_H
+#define MICROBOUNCE_FITTED_CONDUCTOR_H
+
+#include "../tables/conductor_lobes.h"
+#include "fitted.h"
+#include "fitted_anisotropic.h"
+
+// Aspects (1 - alpha_y / alpha_x) up to this pass from isotropic closures to anisotropic ones.
+#define LARGEST_BLENDED_ASPECT 0.1
+
+// Cosine of the lowest direction to which the reflection of bounce 2 mirrors the view.
+#define LOWEST_MIRROR 0.077
+
+// A reflection of widths `along` the plane of incidence and `across` it, about the normal that
+// mirrors the view to where its sine is `ratio` times as large.
+closure color aimed_reflection(Frame frame, Microsurface surface, vector wi, float ratio,
+                               float along, float across)
+{
+  float sine2 = wi[0] * wi[0] + wi[1] * wi[1];
+  float z = sqrt(max(1 - ratio * ratio * sine2, LOWEST_MIRROR * LOWEST_MIRROR));
+  vector h = normalize(vector((1 - ratio) * wi[0], (1 - ratio) * wi[1], wi[2] + z));
+  vector sideways = (sine2 > 0) ? normalize(vector(-wi[1], wi[0], 0)) : vector(0, 1, 0);
+  return microfacet(distribution_name(surface), to_world(frame, h),
+                    to_world(frame, cross(sideways, h)), min(along, 1), min(across, 1), 1, 0);
+}
+
+// That of the isotropic surface which stands for a nearly isotropic one.
+float mean_alpha(Microsurface surface)
+{
+  return sqrt(surface.alpha_x * surface.alpha_y);
+}
+
+closure color fitted_further_bounces(Frame frame, Microsurface surface, Facet facet, vector wi,
+                                     int max_bounces)
+{
+  float alpha = mean_alpha(surface);
+  float energy[1], c[5], v[22];
+  conductor_energy(surface.beckmann, alpha, wi[2], energy);
+  conductor_colour(surface.beckmann, alpha, wi[2], c);
+  conductor_shape(surface.beckmann, alpha, wi[2], v);
+  color ramp[KNOTS];
+  for (int k = 0; k < KNOTS; ++k)
+    ramp[k] = color(v[k] + v[KNOTS + k]);
+  color fitted = ramp_energy(ramp) + (v[16] + v[17]) * v[18];
+  float scale = energy[0] / fitted[0];
+
+  // One Fresnel factor for both facets of bounce 2, one for those of all others.
+  color second = mean_facet_weight(facet, c[1]);
+  second *= scale * second;
+  color later = scale * later_bounces(mean_facet_weight(facet, c[2]), c[3], max_bounces);
+  for (int k = 0; k < KNOTS; ++k)
+    ramp[k] = second * v[k] + later * v[KNOTS + k];
+  // Cycles picks the first bounce as if it lost nothing.
+  return (second * v[16] + later * v[17])
+             * aimed_reflection(frame, surface, wi, v[19], alpha * v[20], alpha * v[21])
+         + ramp_lobe(frame.z, ramp, 1 / (1 - energy[0]));
+}
+
+// All bounces of a surface that is not seen, where lobes widen nothing that is not wide already: of
+// the further ones what is a ramp elsewhere is a cosine, and the rest goes the way of the first.
+closure color unseen_conductor(Frame frame, Microsurface surface, Facet facet, vector wi,
+                               int max_bounces)
+{
+  float alpha = mean_alpha(surface);
+  float energy[1], c[5];
+  conductor_energy(surface.beckmann, alpha, wi[2], energy);
+  conductor_colour(surface.beckmann, alpha, wi[2], c);
+  color second = mean_facet_weight(facet, c[1]), later = mean_facet_weight(facet, c[2]);
+  // Over a facet's factor, which the first bounce has as well.
+  color kept = c[0] * second
+               + (1 - c[0]) * later * later * successive_bounces(later, c[3], max_bounces - 2);
+  kept *= energy[0];
+  float emphasis = 1 / (1 - energy[0]);
+  color ramp[KNOTS];
+  for (int k = 0; k < KNOTS; ++k)
+    ramp[k] = c[4] * k / (KNOTS - 1.0) * second * kept;
+  return (1 + (1 - c[4]) * emphasis * kept) * whole_reflection(frame, surface, facet, 1)
+         + ramp_lobe(frame.z, ramp, emphasis);
+}
+
+// Surfaces that are nearly isotropic have the closures of both kinds, so that nothing jumps.
+closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, vector wi,
+                               Accuracy accuracy)
+{
+  int bounces = accuracy.max_bounces;
+  closure color lobes = whole_reflection(frame, surface, facet, 1);
+  if (bounces == 1 || further_energy_bound(surface, facet, wi) <= accuracy.tolerance)
+    return lobes;
+  float part = min((1 - surface.alpha_y / surface.alpha_x) / LARGEST_BLENDED_ASPECT, 1);
+  if (part < 1) {
+    if (!is_seen())
+      return unseen_conductor(frame, surface, facet, wi, bounces);
+    lobes = (1 - part) * fitted_further_bounces(frame, surface, facet, wi, bounces) + lobes;
+  }
+  if (part > 0)
+    lobes = part * anisotropic_further_bounces(frame, surface, facet, wi, bounces) + lobes;
+  return lobes;
+}
+
+#endif
