@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The main job: renders the showcase with one bounce, with Cycles' own energy compensation and with
-Microbounce; writes pictures into build/demo and prints what they cost and keep.
+Microbounce, Fitted and Walk; writes pictures into build/demo and prints what they cost and keep.
 
 Each variant is rendered in a few interleaved passes with seeds of their own. Their mean is the
 picture; their spread gives its noise; their times, less that of a one-sample warm-up, give the
@@ -61,12 +61,13 @@ class Variant:
             variants.use_quality(metals, self.switch)
 
 
-def three_variants() -> list[Variant]:
+def compared_variants() -> list[Variant]:
     """Return what is compared, the single bounce first."""
     return [
         Variant("single", "Single bounce", "Single"),
         Variant("cycles_multiscatter", "Cycles Multiscatter", "CYCLES"),
-        Variant("microbounce", "Microbounce Walk", "Walk"),
+        Variant("fitted", "Microbounce Fitted", "Fitted"),
+        Variant("walk", "Microbounce Walk", "Walk"),
     ]
 
 
@@ -190,7 +191,7 @@ def main() -> None:
     with render.messages_to(folder / "blender.log"):
         bpy.ops.wm.open_mainfile(filepath=str(SCENE))
     metals = variants.find_materials()
-    compared = three_variants()
+    compared = compared_variants()
     per_pass = arguments.samples // PASSES
     index = render_variants(compared, metals, folder, arguments.samples)
 

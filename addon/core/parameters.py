@@ -55,12 +55,15 @@ _SHARED: tuple[Parameter, ...] = (
         "Quality",
         "Quality",
         "INT",
-        2,
+        1,
         (0, 3),
         (0, 3),
-        tooltip="How the light of further bounces is found. Single leaves it out. Fitted is not "
-        "made yet and takes Walk. Walk smooths the exits of a few walks. Exact has no bias and the "
-        "most noise, and finds lights only by hitting them",
+        tooltip="How the light of further bounces is found. Single leaves it out. Fitted adds "
+        "lobes from a table, without noise; glass that the camera does not see takes a walk, and "
+        "wide GGX glass keeps Single's noise. Walk smooths the exits of a few walks. Exact has no "
+        "bias and the most noise, and finds lights only by hitting them. Fitted takes Walk for "
+        "other models than height-correlated, for Bounce Only, for anisotropic glass and matte "
+        "surfaces, and for glass of an IOR below 1.05 or above 2.5",
         choices=("Single", "Fitted", "Walk", "Exact"),
         panel=BOUNCES_PANEL,
     ),
@@ -98,7 +101,7 @@ _SHARED: tuple[Parameter, ...] = (
         (1, 64),
         (4, 32),
         unit="bounces",
-        tooltip="A walk ends after this many bounces on the microsurface",
+        tooltip="Light ends after this many bounces on the microsurface",
         panel=BOUNCES_PANEL,
     ),
     Parameter(

@@ -30,7 +30,7 @@ GROUP_ERRORS = (ShaderSourceError, ShaderCompileError, ValueError, OSError)
 
 # Raise it when other sockets, nodes, settings or links are made, here or by the makers: files then
 # take the new group beside their old one. A test knows what each number stands for.
-GROUP_REVISION = 3
+GROUP_REVISION = 4
 
 _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
 
@@ -197,12 +197,14 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, kind: Kind, source: str, byteco
     script.location = (-200, 620)
     script.width = 240
     _fill_script(script, kind, source, bytecode)
-    for parameter in kind.parameters:
-        links.new(inputs.outputs[parameter.label], input_socket(script, parameter.identifier))
-    # The tangent about the object's z axis needs generated coordinates, which Cycles makes only for
-    # native nodes that ask for them.
     directions = make_directions(group, inputs)
-    links.new(directions.tangent, input_socket(script, "Tangent"))
+    for parameter in kind.parameters:
+        value = inputs.outputs[parameter.label]
+        # The tangent about the object's z axis needs generated coordinates, which Cycles makes only
+        # for native nodes that ask for them.
+        if parameter.identifier == "Tangent":
+            value = directions.tangent
+        links.new(value, input_socket(script, parameter.identifier))
 
     switch = nodes.new("ShaderNodeMixShader")
     switch.name = switch.label = "Fallback Unless Active"
