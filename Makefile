@@ -31,13 +31,8 @@ demo-picture: ## The same, and renew the picture in docs/ that the README shows
 test: ## Run every test on one Blender version (5.2, or 4.5 where only Python 3.11 is there)
 	@$(any) $(pytest)
 
-test-all: ## Run every test on Blender 5.2, then on 4.5
-	@status=0; \
-	for blender in 5.2 4.5; do \
-	  python="$$(tools/environment.sh $$blender)" && \
-	    echo "== Tests on Blender $$blender" && "$$python" $(pytest) || status=1; \
-	done; \
-	exit $$status
+test-all: ## Run every test on Blender 5.2 and on 4.5
+	@tools/test_all.sh $(TESTS) $(PYTEST_ARGS)
 
 test-5.2: ## Run every test on Blender 5.2
 	@$(on_5.2) $(pytest)
@@ -60,8 +55,8 @@ references: ## Render the oracle's reference pictures anew (about 35 minutes)
 figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
 	@$(any) -m blender_tests.figures
 
-tables: ## Fit the shaders' tables anew (osl/tables)
-	@$(any) osl/tables/ierfcx.py
+tables: ## Fit the shaders' tables anew (osl/tables; about nine minutes on two cores)
+	@$(any) -m osl.tables
 
 scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both versions open them
 	@$(on_4.5) -m scenes.build_all

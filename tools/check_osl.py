@@ -7,7 +7,7 @@ from pathlib import Path
 
 LICENCE = "// SPDX-License-Identifier: GPL-3.0-or-later"
 LONGEST_LINE = 100
-# One concept a file; a longer one wants to be two.
+# One concept a file; a longer one wants to be two. Tables are as long as they are.
 LONGEST_FILE = 300
 
 
@@ -22,7 +22,7 @@ def complaints(path: Path) -> list[str]:
             found.append(f"{path}:{number}: {len(line)} characters; at most {LONGEST_LINE}")
         if "\t" in line or line != line.rstrip():
             found.append(f"{path}:{number}: a tab, or a blank at the end")
-    if len(lines) > LONGEST_FILE:
+    if len(lines) > LONGEST_FILE and path.parent.name != "tables":
         found.append(f"{path}: {len(lines)} lines; at most {LONGEST_FILE}")
     if path.suffix == ".h":
         directives = [line for line in lines if line.lstrip().startswith("#")]

@@ -17,13 +17,19 @@ class SampleTimes:
     """Seconds of processor time per sample of several variants, measured in interleaved rounds.
 
     seconds -- by name of the variant, one figure a round, in the order of the rounds
+    starts  -- the same of a whole render with one sample: what a render takes before its samples
     """
 
     seconds: dict[str, list[float]]
+    starts: dict[str, list[float]]
 
     def median(self, variant: str) -> float:
         """Return the median over the rounds, in seconds per sample."""
         return statistics.median(self.seconds[variant])
+
+    def start(self, variant: str) -> float:
+        """Return the median of `starts`, in seconds."""
+        return statistics.median(self.starts[variant])
 
     def ratio(self, variant: str, baseline: str) -> float:
         """Return the median over the rounds of variant / baseline.
@@ -59,6 +65,7 @@ def time_samples(
     if samples < 1 or rounds < 1:
         raise ValueError(f"samples is {samples}, rounds is {rounds}: both must be 1 or more")
     seconds: dict[str, list[float]] = {name: [] for name in variants}
+    starts: dict[str, list[float]] = {name: [] for name in variants}
     kept = scene.cycles.samples, scene.cycles.seed, scene.render.use_persistent_data
     # With it Cycles would not notice that the number of samples changed.
     scene.render.use_persistent_data = False
@@ -68,15 +75,16 @@ def time_samples(
             for name, switch in variants.items():
                 switch()
                 _render(scene, 1)
-                start = _render(scene, 1)
-                seconds[name].append((_render(scene, 1 + samples) - start) / samples)
+                starts[name].append(_render(scene, 1))
+                rest = _render(scene, 1 + samples) - starts[name][-1]
+                seconds[name].append(rest / samples)
                 if seconds[name][-1] <= 0.0:
                     raise RuntimeError(
                         f"{name}: {samples} samples took no measurable time; time more of them"
                     )
     finally:
         scene.cycles.samples, scene.cycles.seed, scene.render.use_persistent_data = kept
-    return SampleTimes(seconds)
+    return SampleTimes(seconds, starts)
 
 
 def _render(scene: bpy.types.Scene, samples: int) -> float:

@@ -142,6 +142,10 @@ _METALS = (
     Case("sun_gold_ggx_0.5", Surface(0.5, 0.5, GGX, Conductor(GOLD)), 512, 9),
     Case("sun_copper_beckmann_0.5", Surface(0.5, 0.5, BECKMANN, Conductor(COPPER)), 192, 10),
     Case("furnace_gold_ggx_0.5", Surface(0.5, 0.5, GGX, Conductor(GOLD)), 32, 11, FURNACE),
+    _case("sun_white", (0.1, 0.1), 64, 14, Conductor(), subsamples=8, limit=0.003),
+    _case("sun_white", (0.75, 0.75), 700, 15, Conductor()),
+    _case("sun_white", (0.1, 0.1), 16, 16, Conductor(), BECKMANN, subsamples=8, limit=0.003),
+    _case("sun_white", (0.75, 0.75), 800, 17, Conductor(), BECKMANN),
     _case("sun_white", (1.0, 1.0), 545, 12, Conductor(), model=UNCORRELATED),
     _case("sun_white", (1.0, 1.0), 900, 13, Conductor(), model=HEIGHT_TRACKED),
 )

@@ -12,6 +12,7 @@ from blender_tests.oracle import exr, references
 from blender_tests.oracle.reference_cases import CASES
 
 ROWS = [14, 30, 40]  # of a reference, through dim and bright parts
+LIT_PIXELS = 50  # or more are compared
 
 
 def test_exr_keeps_layers_and_metadata(tmp_path):
@@ -56,15 +57,24 @@ def test_every_case_has_its_file_and_nothing_else_is_there():
         assert references.relative_error(layers) <= case.limit * (1.001 if case.half else 1.0)
 
 
+def _rows(lit):
+    """ROWS, or where too little is lit on them (a narrow highlight) five through its middle."""
+    if lit[ROWS].sum() > LIT_PIXELS:
+        return ROWS
+    middle = int(np.median(np.nonzero(lit)[0]))
+    return list(range(middle - 2, middle + 3))
+
+
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_reference_agrees_with_a_new_rendering_of_some_rows(case):
     stored, _ = exr.read(references.FOLDER / f"{case.name}.exr")
     walks = max(2, case.walks // 8)
     again = replace(case, walks=walks, seed=1000 + case.seed)
-    fresh = references.render(again, rows=ROWS)
     lit = (stored["mask"] > 0.0) & (stored["mean"].max(axis=-1) > 1e-4)
-    lit[[row for row in range(len(lit)) if row not in ROWS]] = False
-    assert lit.sum() > 50
+    rows = _rows(lit)
+    fresh = references.render(again, rows=rows)
+    lit[[row for row in range(len(lit)) if row not in rows]] = False
+    assert lit.sum() > LIT_PIXELS
     if "single" in stored and case.surface.material.smooth:
         # what rounding leaves in the file; half floats have steps of 6e-8 at least
         rounding = {"rtol": 2.0**-11, "atol": 3e-8} if case.half else {"rtol": 1e-6}
@@ -73,6 +83,8 @@ def test_reference_agrees_with_a_new_rendering_of_some_rows(case):
     # errors are pooled before dividing: walks are skewed, so that a pixel with too low a mean has
     # too low an error as well, and single z-values lean to one side
     variance = stored["error"][lit] ** 2 + fresh["error"][lit] ** 2
+    if case.half:  # rounding is uniform over a step; where hardly a walk goes on it is all there is
+        variance += np.spacing(stored["mean"][lit].astype(np.float16)).astype(float) ** 2 / 12.0
     assert np.abs(difference.sum(axis=0) / np.sqrt(variance.sum(axis=0))).max() < 4.0
     # 57 pixels or more know their spread to 4 * sqrt(2 / 57) = 75 % at 4 standard errors
     spread = (difference**2).sum(axis=0) / variance.sum(axis=0)

@@ -73,6 +73,13 @@ def independent_pictures(samples: int, count: int) -> np.ndarray:
     return np.array(pictures)
 
 
+def relative_noise(samples: int, count: int, mask: np.ndarray) -> float:
+    """Standard deviation of a pixel of the open scene at `samples`, from `count` renders: its root
+    mean square over `mask` relative to the mean radiance there."""
+    found = independent_pictures(samples, count).mean(axis=-1)[:, mask]
+    return float(np.sqrt(found.var(axis=0, ddof=1).mean()) / found.mean())
+
+
 def render_fixture(name: str, samples: int, seed: int = 0, **values: object) -> np.ndarray:
     """Open a fixture scene, set parameters of its material by identifier, and render it."""
     set_values(open_scene(name), values)
@@ -94,6 +101,17 @@ def open_lit(light: str, kind: str) -> variants.Material:
     if light == "inside":
         fixtures.turn_inside_out()
     return material
+
+
+def open_solid_sphere(roughness: float) -> variants.Material:
+    """Open the furnace of glass, and let light go on inside the sphere; return its material."""
+    glass = open_scene("furnace_dielectric")
+    glass.set("Roughness", roughness)
+    scene = bpy.context.scene
+    scene.cycles.max_bounces = scene.cycles.transmission_bounces = 8
+    for ray in ("diffuse", "glossy", "transmission", "shadow"):
+        setattr(bpy.data.objects["Sphere"], f"visible_{ray}", True)
+    return glass
 
 
 def reference(name: str) -> dict[str, np.ndarray]:

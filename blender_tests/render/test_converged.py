@@ -155,7 +155,7 @@ def _hold(
 def _pair(
     light: str, kind: str, samples: int, values: dict[str, object]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Two independent pictures."""
-    pictures.set_values(pictures.open_lit(light, kind), values)
+    """Two independent pictures in Walk."""
+    pictures.set_values(pictures.open_lit(light, kind), {"Quality": "Walk", **values})
     a, b = pictures.independent_pictures(samples, 2)
     return a, b

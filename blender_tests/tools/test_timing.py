@@ -12,7 +12,9 @@ FURNACE = Path(__file__).resolve().parents[2] / "scenes" / "furnace_conductor.bl
 
 
 def test_medians_and_ratios_are_taken_round_by_round():
-    times = SampleTimes({"a": [1.0, 2.0, 10.0], "b": [2.0, 6.0, 5.0]})
+    starts = {"a": [3.0, 1.0, 2.0]}
+    times = SampleTimes({"a": [1.0, 2.0, 10.0], "b": [2.0, 6.0, 5.0]}, starts)
+    assert times.start("a") == 2.0
     assert times.median("a") == 2.0
     assert times.ratios("b", "a") == [2.0, 3.0, 0.5]
     assert times.ratio("b", "a") == 2.0
@@ -34,5 +36,7 @@ def test_rounds_are_interleaved_and_the_scene_put_back():
     assert order == ["a", "b", "a", "b"]
     assert all(len(times.seconds[name]) == 2 for name in switches)
     assert all(seconds > 0.0 for name in switches for seconds in times.seconds[name])
+    assert all(len(times.starts[name]) == 2 for name in switches)
+    assert all(start > 0.0 for name in switches for start in times.starts[name])
     assert (scene.cycles.samples, scene.cycles.seed) == (7, 3)
     assert not scene.render.use_persistent_data
