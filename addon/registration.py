@@ -1,31 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registers every module's CLASSES and menu entries, and takes exactly those out again."""
+"""Registers every module's CLASSES, then what its own `register` adds, and takes out exactly that.
+
+A module may have `CLASSES`, or a pair of functions `register` and `unregister`, or both.
+"""
+
+from collections.abc import Callable
 
 import bpy
 
 from .ops import material, node, osl
 from .ui import menus, panels
 
-_MODULES = (osl, material, node, menus, panels)
-_CLASSES = tuple(cls for module in _MODULES for cls in module.CLASSES)
+_MODULES = (
+    osl,
+    material,
+    node,
+    menus,
+    panels,
+)
+
+# What undoes the registration, in the order in which it was done.
+_undo: list[Callable[[], None]] = []
 
 
 def register() -> None:
-    """Register all classes, then the menu entries; on an error, none stays registered."""
-    done = []
+    """Register all modules; on an error, none stays registered."""
     try:
-        for cls in _CLASSES:
-            bpy.utils.register_class(cls)
-            done.append(cls)
-        menus.register()
+        for module in _MODULES:
+            for cls in getattr(module, "CLASSES", ()):
+                bpy.utils.register_class(cls)
+                _undo.append(lambda cls=cls: bpy.utils.unregister_class(cls))
+            if hasattr(module, "register"):
+                module.register()
+                _undo.append(module.unregister)
     except Exception:
-        for cls in reversed(done):
-            bpy.utils.unregister_class(cls)
+        unregister()
         raise
 
 
 def unregister() -> None:
     """Undo `register` in reverse order."""
-    menus.unregister()
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+    while _undo:
+        _undo.pop()()
