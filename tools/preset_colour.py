@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours of reflectance spectra: linear Rec. 709 in daylight D65, CIE 1931 observer of 2 degrees."""
+"""Colours of reflectance spectra: linear Rec. 709 in daylight D65, by the CIE 1931 observer."""
 
 import numpy as np
 
