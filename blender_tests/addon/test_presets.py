@@ -47,7 +47,9 @@ PUBLISHED_INDICES = {
 PUBLISHED_COLOURS = {
     "aluminium": ((0.916, 0.923, 0.924), (0.91, 0.936, 0.959)),
     "brass": ((0.91, 0.778, 0.423), None),
+    "beryllium": ((0.539, 0.533, 0.534), None),
     "iron": ((0.53, 0.513, 0.494), None),
+    "manganese": ((0.606, 0.592, 0.573), None),
     "mercury": ((0.781, 0.78, 0.778), None),
     "nickel": ((0.697, 0.641, 0.563), None),
     "palladium": ((0.734, 0.7036, 0.662), None),
