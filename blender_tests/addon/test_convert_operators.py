@@ -6,9 +6,22 @@ from types import SimpleNamespace
 
 import pytest
 
-from blender_tests.addon.node_trees import DIFFUSE, GLASS, METALLIC, PRINCIPLED, dump, material_with
+from blender_tests.addon.node_trees import (
+    DIFFUSE,
+    GLASS,
+    METALLIC,
+    PRINCIPLED,
+    compile_once,
+    dump,
+    material_with,
+)
 
 TYPES = {"Metal": METALLIC, "Glass": GLASS, "Matte": DIFFUSE, "Mixture": PRINCIPLED}
+
+
+@pytest.fixture(autouse=True)
+def each_shader_is_compiled_once(monkeypatch):
+    monkeypatch.setattr("addon.nodes.group.compile_source", compile_once)
 
 
 @pytest.fixture
