@@ -11,6 +11,8 @@ from ..core import VERSION
 from ..core.kinds import KINDS
 from ..core.shader_source import inlined_source
 from .convert.animation import Curves, input_curves, move_curves
+from .convert.state import Value, plain_value
+from .convert.translation import shown
 from .group import KIND_KEY, STAMP_KEY, VERSION_KEY, _stamp, material_group, script_node
 
 
@@ -126,7 +128,7 @@ def _swap(
     number that counts the sockets of a group.
     """
     defaults = _defaults(node.node_tree)
-    before = {socket.name: _plain(socket.default_value) for socket in node.inputs}
+    before = {socket.name: plain_value(socket.default_value) for socket in node.inputs}
     hidden = {socket.name for socket in node.inputs if socket.hide}
     sources = [(s.name, k.from_socket, k.is_muted) for s in node.inputs for k in s.links]
     targets = [(s.name, k.to_socket, k.is_muted) for s in node.outputs for k in s.links]
@@ -139,9 +141,9 @@ def _swap(
     _set_values(inputs, before, _defaults(new))
     changed = [name for name, value in before.items() if value != defaults.get(name)]
     lost = [
-        f"{name} was {_shown(before[name])}"
+        f"{name} was {shown(before[name])}"
         for name in changed
-        if name not in inputs or _plain(inputs[name].default_value) != before[name]
+        if name not in inputs or plain_value(inputs[name].default_value) != before[name]
     ]
     for name, socket in inputs.items():
         socket.hide = name in hidden
@@ -163,7 +165,7 @@ def _swap(
 
 
 def _set_values(
-    inputs: dict[str, bpy.types.NodeSocket], values: dict[str, object], defaults: dict[str, object]
+    inputs: dict[str, bpy.types.NodeSocket], values: dict[str, Value], defaults: dict[str, Value]
 ) -> None:
     """Set each input to the value of its name, else to the default of the group."""
     for name, socket in inputs.items():
@@ -175,22 +177,12 @@ def _set_values(
                 continue
 
 
-def _defaults(group: bpy.types.NodeTree) -> dict[str, object]:
+def _defaults(group: bpy.types.NodeTree) -> dict[str, Value]:
     return {
-        item.name: _plain(item.default_value)
+        item.name: plain_value(item.default_value)
         for item in group.interface.items_tree
         if item.item_type == "SOCKET" and item.in_out == "INPUT"
     }
-
-
-def _plain(value: object) -> object:
-    return tuple(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
-
-
-def _shown(value: object) -> str:
-    numbers = value if isinstance(value, tuple) else (value,)
-    shown = ", ".join(f"{n:.4g}" if isinstance(n, float) else str(n) for n in numbers)
-    return f"({shown})" if isinstance(value, tuple) else shown
 
 
 def _remove_unused(groups: set[bpy.types.NodeTree]) -> list[str]:

@@ -1,10 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Converts native materials to ours and back."""
 
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
 import bpy
 
-from ..nodes.convert import TO_NATIVE, TO_OURS, Conversion, plan, to_microbounce, to_native
 from ..nodes.group import GROUP_ERRORS
+from .osl import osl_status
+
+# Imported when it is first used, so that the extension starts sooner.
+if TYPE_CHECKING:
+    from ..nodes.convert import Conversion
+
+Function = Callable[[bpy.types.Material], "Conversion"]
 
 _SCOPES = (
     ("ACTIVE", "Active Material", "The material in the active object's active slot"),
@@ -38,7 +48,7 @@ def _needs_materials(scope: str) -> str:
 
 
 class _Converts:
-    """What both directions share; a subclass has `direction` and `convert`."""
+    """What both directions share; a subclass has the `functions` of its own."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -68,32 +78,35 @@ class _Converts:
         for conversion in done:
             self._report(conversion)
         self.report({"INFO"}, summary(done, self.dry_run))
+        self.warn(context)
         return {"FINISHED"}
+
+    def warn(self, context: bpy.types.Context) -> None:
+        """Warn of what stands in the way of the result; nothing does, unless a subclass says so."""
 
     def _convert(
         self, manager: bpy.types.WindowManager, materials: list[bpy.types.Material]
-    ) -> list[Conversion]:
+    ) -> "list[Conversion]":
+        plan, convert = self.functions()
+        function = plan if self.dry_run else convert
         manager.progress_begin(0, len(materials))
         try:
             done = []
             for number, material in enumerate(materials):
                 manager.progress_update(number)
-                if self.dry_run:
-                    done.append(plan(material, self.direction))
-                else:
-                    done.append(type(self).convert(material))
+                done.append(function(material))
             return done
         finally:
             manager.progress_end()
 
-    def _report(self, conversion: Conversion) -> None:
+    def _report(self, conversion: "Conversion") -> None:
         for entry, line in zip(conversion.entries, conversion.lines, strict=True):
             noteworthy = entry.reason or entry.notes
             if noteworthy or self.dry_run:
                 self.report({"WARNING" if noteworthy else "INFO"}, line)
 
 
-def summary(done: list[Conversion], dry_run: bool) -> str:
+def summary(done: "list[Conversion]", dry_run: bool) -> str:
     """Return in one line how many materials were converted, or would be in a dry run."""
     changed = [conversion for conversion in done if conversion.converted]
     nodes = sum(len(conversion.converted) for conversion in changed)
@@ -121,8 +134,17 @@ class MICROBOUNCE_OT_to_microbounce(_Converts, bpy.types.Operator):
         "nodes of the same values and links"
     )
 
-    direction = TO_OURS
-    convert = staticmethod(to_microbounce)
+    def functions(self) -> tuple[Function, Function]:
+        """Return what plans and what converts; node groups are found once for all materials."""
+        from ..nodes.convert import TO_OURS, plan, to_microbounce
+
+        return partial(plan, direction=TO_OURS), partial(to_microbounce, groups={})
+
+    def warn(self, context: bpy.types.Context) -> None:
+        """Warn where the shaders will not run."""
+        status = osl_status(context)
+        if not status.ok:
+            self.report({"WARNING"}, status.message)
 
 
 class MICROBOUNCE_OT_to_native(_Converts, bpy.types.Operator):
@@ -134,8 +156,11 @@ class MICROBOUNCE_OT_to_native(_Converts, bpy.types.Operator):
         "Replace Microbounce nodes by the Cycles nodes that they were made from, or the nearest"
     )
 
-    direction = TO_NATIVE
-    convert = staticmethod(to_native)
+    def functions(self) -> tuple[Function, Function]:
+        """Return what plans and what converts."""
+        from ..nodes.convert import TO_NATIVE, plan, to_native
+
+        return partial(plan, direction=TO_NATIVE), to_native
 
 
 CLASSES = (MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native)

@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Updates the materials of a file to today's node groups."""
 
+from typing import TYPE_CHECKING
+
 import bpy
 
 from ..nodes.group import GROUP_ERRORS
-from ..nodes.update import Update, old_groups, update_materials
+
+# Imported when it is first used, so that the extension starts sooner.
+if TYPE_CHECKING:
+    from ..nodes.update import Update
 
 
 def obstacle() -> str:
     """Return why nothing can be updated, with the remedy; "" where something can."""
+    from ..nodes.update import old_groups
+
     try:
         found = old_groups()
     except GROUP_ERRORS as error:
@@ -37,6 +44,8 @@ class MICROBOUNCE_OT_update_materials(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Update, and report what was lost or could not be changed."""
+        from ..nodes.update import update_materials
+
         try:
             done = update_materials()
         except GROUP_ERRORS as error:
@@ -48,7 +57,7 @@ class MICROBOUNCE_OT_update_materials(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _summary(done: Update) -> str:
+def _summary(done: "Update") -> str:
     parts = [f"Nodes updated: {done.nodes}"]
     if done.lost:
         parts.append(f"values and links that have no place any more: {len(done.lost)}")

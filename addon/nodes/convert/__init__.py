@@ -29,13 +29,19 @@ def plan(material: bpy.types.Material, direction: str = TO_OURS) -> Conversion:
     return _conversion(material, steps, stay)
 
 
-def to_microbounce(material: bpy.types.Material) -> Conversion:
+def to_microbounce(
+    material: bpy.types.Material, groups: dict[str, bpy.types.NodeTree] | None = None
+) -> Conversion:
     """Put nodes of ours in the place of native ones, where they have a counterpart.
 
-    Raises one of GROUP_ERRORS where a node group cannot be made; nothing is changed then.
+    `groups` are node groups by kind that earlier calls found, to which this one adds: finding them
+    takes most of the time. Raises one of GROUP_ERRORS where a node group cannot be made; nothing
+    is changed then.
     """
     steps, stay = _checked_steps(material, TO_OURS)
-    groups = {step.made.target: material_group(step.made.target) for step in steps}
+    groups = {} if groups is None else groups
+    for kind in {step.made.target for step in steps} - set(groups):
+        groups[kind] = material_group(kind)
     for step in steps:
         node = material.node_tree.nodes.new("ShaderNodeGroup")
         node.node_tree = groups[step.made.target]

@@ -61,6 +61,7 @@ def _keep_within_limits(native: State, made: Translation) -> None:
 
 
 def _cut(value: float | list[float], low: float, high: float) -> float | list[float]:
+    # In this order what is no number becomes `high`.
     if isinstance(value, list):
-        return [min(max(component, low), high) for component in value]
-    return min(max(value, low), high)
+        return [max(low, min(high, component)) for component in value]
+    return max(low, min(high, value))

@@ -50,7 +50,7 @@ def edge_tint(reflectance: float) -> float:
 
     Both are from 0 to 1; reflectances outside are taken at the nearer end.
     """
-    f = min(max(reflectance, 0.0), 1.0)
+    f = max(0.0, min(1.0, reflectance))
     schlick = f + (1.0 - f) * (1.0 - _COSINE) ** 5
     b = 6.0 * (1.0 - f)
     return 1.0 - b * _COSINE * (1.0 - _COSINE) ** 6 / schlick

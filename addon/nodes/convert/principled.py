@@ -128,7 +128,7 @@ _TO_NATIVE = {
 
 def _each(formula: Callable[[float], float]) -> Callable[[list[float]], list[float]]:
     """Return `formula` for the three components of a colour, taken from 0 to 1."""
-    return lambda color: [*(formula(min(max(c, 0.0), 1.0)) for c in color[:3]), color[3]]
+    return lambda color: [*(formula(max(0.0, min(1.0, c))) for c in color[:3]), color[3]]
 
 
 PRINCIPLED = Family("ShaderNodeBsdfPrincipled", _forward, _back)

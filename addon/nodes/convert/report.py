@@ -26,7 +26,7 @@ class Entry:
         """The entry in one line."""
         if not self.node:
             return self.reason
-        name = f"{self.node}" if self.node == self.source else f"{self.node} ({self.source})"
+        name = self.node if self.node == self.source else f"{self.node} ({self.source})"
         if not self.target:
             return f"{name} stays. {self.reason}"
         return ". ".join([f"{name}: {self.target}", *self.notes])

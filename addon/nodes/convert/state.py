@@ -49,7 +49,7 @@ def read_state(node: bpy.types.Node, animated: frozenset[str] = frozenset()) -> 
     return State(
         idname=node.bl_idname,
         settings={name: getattr(node, name) for name in _own_properties(node)},
-        values={socket.name: _plain(socket.default_value) for socket in node.inputs},
+        values={socket.name: plain_value(socket.default_value) for socket in node.inputs},
         varying=[s.name for s in node.inputs if s.is_linked or s.name in animated],
         hidden=[socket.name for socket in node.inputs if socket.hide],
         panels={str(p.identifier): p.is_collapsed for p in getattr(node, "panel_states", ())},
@@ -84,5 +84,6 @@ def _own_properties(node: bpy.types.Node) -> list[str]:
     return found
 
 
-def _plain(value: object) -> Value:
+def plain_value(value: object) -> Value:
+    """Return the value of a socket as plain data: vectors and colours as lists."""
     return list(value) if hasattr(value, "__len__") and not isinstance(value, str) else value

@@ -73,11 +73,12 @@ def need_value(source: State, name: str, why: str, *allowed: Value) -> None:
     """Raise NotConvertibleError where input `name` is not fixed at one of the values `allowed`."""
     if source.is_fixed(name, *allowed):
         return
-    given = "linked or animated" if name in source.varying else _shown(source.values[name])
-    raise NotConvertibleError(f"{name} is {given}: {why}. Set it to {_shown(allowed[0])}")
+    given = "linked or animated" if name in source.varying else shown(source.values[name])
+    raise NotConvertibleError(f"{name} is {given}: {why}. Set it to {shown(allowed[0])}")
 
 
-def _shown(value: Value) -> str:
+def shown(value: Value) -> str:
+    """Return `value` in words for users."""
     if isinstance(value, list):
-        return "(" + ", ".join(f"{number:.3g}" for number in value) + ")"
-    return str(value) if isinstance(value, bool | str) else f"{value:.3g}"
+        return "(" + ", ".join(map(shown, value)) + ")"
+    return str(value) if isinstance(value, bool | str) else f"{value:.4g}"
