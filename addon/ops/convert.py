@@ -48,7 +48,7 @@ def _needs_materials(scope: str) -> str:
 
 
 class _Converts:
-    """What both directions share; a subclass has the `functions` of its own."""
+    """What both directions share; a subclass has a `planner` and a `converter`."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -87,8 +87,7 @@ class _Converts:
     def _convert(
         self, manager: bpy.types.WindowManager, materials: list[bpy.types.Material]
     ) -> "list[Conversion]":
-        plan, convert = self.functions()
-        function = plan if self.dry_run else convert
+        function = self.planner() if self.dry_run else self.converter(materials)
         manager.progress_begin(0, len(materials))
         try:
             done = []
@@ -134,11 +133,17 @@ class MICROBOUNCE_OT_to_microbounce(_Converts, bpy.types.Operator):
         "nodes of the same values and links"
     )
 
-    def functions(self) -> tuple[Function, Function]:
-        """Return what plans and what converts; node groups are found once for all materials."""
-        from ..nodes.convert import TO_OURS, plan, to_microbounce
+    def planner(self) -> Function:
+        """Return what plans the conversion of a material."""
+        from ..nodes.convert import TO_OURS, plan
 
-        return partial(plan, direction=TO_OURS), partial(to_microbounce, groups={})
+        return partial(plan, direction=TO_OURS)
+
+    def converter(self, materials: list[bpy.types.Material]) -> Function:
+        """Return what converts each of `materials`; groups that cannot be made stop it here."""
+        from ..nodes.convert import needed_groups, to_microbounce
+
+        return partial(to_microbounce, groups=needed_groups(materials))
 
     def warn(self, context: bpy.types.Context) -> None:
         """Warn where the shaders will not run."""
@@ -156,11 +161,17 @@ class MICROBOUNCE_OT_to_native(_Converts, bpy.types.Operator):
         "Replace Microbounce nodes by the Cycles nodes that they were made from, or the nearest"
     )
 
-    def functions(self) -> tuple[Function, Function]:
-        """Return what plans and what converts."""
-        from ..nodes.convert import TO_NATIVE, plan, to_native
+    def planner(self) -> Function:
+        """Return what plans the conversion of a material."""
+        from ..nodes.convert import TO_NATIVE, plan
 
-        return partial(plan, direction=TO_NATIVE), to_native
+        return partial(plan, direction=TO_NATIVE)
+
+    def converter(self, materials: list[bpy.types.Material]) -> Function:
+        """Return what converts a material."""
+        from ..nodes.convert import to_native
+
+        return to_native
 
 
 CLASSES = (MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native)

@@ -6,6 +6,8 @@ with what was changed in between translated. Names, places and looks of nodes, a
 animation of inputs that both have, go along both ways.
 """
 
+from collections.abc import Iterable
+
 import bpy
 
 from ..group import material_group
@@ -16,7 +18,16 @@ from .report import Conversion, Entry
 from .state import State, read_state, write_state
 from .steps import TO_NATIVE, TO_OURS, Step, find_steps
 
-__all__ = ["TO_NATIVE", "TO_OURS", "Conversion", "Entry", "plan", "to_microbounce", "to_native"]
+__all__ = [
+    "TO_NATIVE",
+    "TO_OURS",
+    "Conversion",
+    "Entry",
+    "needed_groups",
+    "plan",
+    "to_microbounce",
+    "to_native",
+]
 
 
 def plan(material: bpy.types.Material, direction: str = TO_OURS) -> Conversion:
@@ -29,19 +40,27 @@ def plan(material: bpy.types.Material, direction: str = TO_OURS) -> Conversion:
     return _conversion(material, steps, stay)
 
 
+def needed_groups(materials: Iterable[bpy.types.Material]) -> dict[str, bpy.types.NodeTree]:
+    """Return the node groups, by kind, that `to_microbounce` puts into `materials`.
+
+    Makes them where the file has none. Raises one of GROUP_ERRORS where that fails.
+    """
+    steps = [step for material in materials for step in _checked_steps(material, TO_OURS)[0]]
+    return {kind: material_group(kind) for kind in sorted({step.made.target for step in steps})}
+
+
 def to_microbounce(
     material: bpy.types.Material, groups: dict[str, bpy.types.NodeTree] | None = None
 ) -> Conversion:
     """Put nodes of ours in the place of native ones, where they have a counterpart.
 
-    `groups` are node groups by kind that earlier calls found, to which this one adds: finding them
-    takes most of the time. Raises one of GROUP_ERRORS where a node group cannot be made; nothing
-    is changed then.
+    `groups` are the `needed_groups`, found here where they are None: for many materials, finding
+    them takes most of the time. Raises one of GROUP_ERRORS where a node group cannot be made;
+    nothing is changed then.
     """
     steps, stay = _checked_steps(material, TO_OURS)
-    groups = {} if groups is None else groups
-    for kind in {step.made.target for step in steps} - set(groups):
-        groups[kind] = material_group(kind)
+    if groups is None:
+        groups = needed_groups([material])
     for step in steps:
         node = material.node_tree.nodes.new("ShaderNodeGroup")
         node.node_tree = groups[step.made.target]
