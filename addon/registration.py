@@ -8,15 +8,19 @@ from collections.abc import Callable
 
 import bpy
 
-from .ops import material, node, osl
+from .ops import convert, material, node, osl, update
+from .ui import convert as convert_panel
 from .ui import menus, panels
 
 _MODULES = (
     osl,
     material,
     node,
+    convert,
+    update,
     menus,
     panels,
+    convert_panel,
 )
 
 # What undoes the registration, in the order in which it was done.
