@@ -8,13 +8,14 @@ from collections.abc import Callable
 
 import bpy
 
-from .ops import material, node, osl
+from .ops import material, node, osl, presets
 from .ui import menus, panels
 
 _MODULES = (
     osl,
     material,
     node,
+    presets,
     menus,
     panels,
 )
