@@ -15,6 +15,7 @@ FOLDER = Path(__file__).resolve().parent.parent / "presets"
 
 _FINISH = "finish"
 _KIND_OF_FOLDER = {kind.lower(): kind for kind in KINDS}
+_FOLDERS = (*_KIND_OF_FOLDER, _FINISH)
 _TEXTS = ("name", "description")
 
 
@@ -59,18 +60,16 @@ class Finish:
 def presets(kind: str | None = None) -> tuple[Preset, ...]:
     """Return the presets of a kind, or all, by kind and name; raises ValueError for another kind.
 
-    The files are read once. One that cannot be used is left out, and `problems` tells of it.
+    Files are read once, those of a kind when it is first asked for. One that cannot be used is left
+    out, and `problems` tells of it.
     """
-    found = _load(FOLDER).presets
-    if kind is None:
-        return found
-    kind_named(kind)
-    return tuple(preset for preset in found if preset.kind == kind)
+    kinds = KINDS if kind is None else (kind_named(kind).identifier,)
+    return tuple(item for each in kinds for item in _read_folder(FOLDER / each.lower()).items)
 
 
 def finishes(kind: str | None = None) -> tuple[Finish, ...]:
     """Return the finishes for a kind, or all, by name; raises ValueError for another kind."""
-    found = _load(FOLDER).finishes
+    found = _read_folder(FOLDER / _FINISH).items
     if kind is None:
         return found
     kind_named(kind)
@@ -89,12 +88,12 @@ def finish(identifier: str) -> Finish:
 
 def problems() -> tuple[str, ...]:
     """Return what is wrong with the files that were left out, a text a file."""
-    return _load(FOLDER).problems
+    return tuple(text for name in _FOLDERS for text in _read_folder(FOLDER / name).problems)
 
 
 def clear_cache() -> None:
     """Forget what was read: the files are read again when they are next asked for."""
-    _load.cache_clear()
+    _read_folder.cache_clear()
 
 
 def read(path: Path) -> Preset | Finish:
@@ -115,29 +114,24 @@ def read(path: Path) -> Preset | Finish:
 
 
 @dataclass(frozen=True)
-class _Library:
-    presets: tuple[Preset, ...]
-    finishes: tuple[Finish, ...]
+class _Folder:
+    items: tuple[Preset | Finish, ...]
     problems: tuple[str, ...]
 
 
 @cache
-def _load(folder: Path) -> _Library:
-    read_files: list[Preset | Finish] = []
+def _read_folder(folder: Path) -> _Folder:
+    items: list[Preset | Finish] = []
     wrong: list[str] = []
-    paths = sorted(folder.glob("*/*.toml"))
+    paths = sorted(folder.glob("*.toml"))
     if not paths:
         wrong.append(f"{folder}: there are no presets here. Install the extension again.")
     for path in paths:
         try:
-            read_files.append(read(path))
+            items.append(read(path))
         except PresetError as error:
             wrong.append(str(error))
-    materials = [item for item in read_files if isinstance(item, Preset)]
-    materials.sort(key=lambda item: (list(KINDS).index(item.kind), item.name.casefold()))
-    treatments = [item for item in read_files if isinstance(item, Finish)]
-    treatments.sort(key=lambda item: item.name.casefold())
-    return _Library(tuple(materials), tuple(treatments), tuple(wrong))
+    return _Folder(tuple(sorted(items, key=lambda item: item.name.casefold())), tuple(wrong))
 
 
 def _made(path: Path, table: dict[str, object]) -> Preset | Finish:
@@ -151,8 +145,7 @@ def _made(path: Path, table: dict[str, object]) -> Preset | Finish:
         values = [_values(table, kind) for kind in kinds]
         return Finish(identifier, *texts, kinds, values[0], _source(table))
     if folder not in _KIND_OF_FOLDER:
-        folders = ", ".join((*_KIND_OF_FOLDER, _FINISH))
-        raise ValueError(f"the folder {folder!r} is not one of {folders}")
+        raise ValueError(f"the folder {folder!r} is not one of {', '.join(_FOLDERS)}")
     kind = _KIND_OF_FOLDER[folder]
     tags, values = _words(table, "tags"), _values(table, kind)
     return Preset(identifier, kind, *texts, tags, values, _source(table))
@@ -163,11 +156,10 @@ def _values(table: dict[str, object], kind: str) -> Mapping[str, Value]:
     values = {}
     for identifier, value in _table(table, "values").items():
         if identifier not in parameters:
-            raise ValueError(
-                f"{kind} has no parameter {identifier!r}{_close(identifier, parameters)}"
-            )
-        if isinstance(value, bool):  # which Python takes for a number
-            raise TypeError(f"{identifier} is {str(value).lower()}: give a number")
+            raise ValueError(f"{kind} has no {identifier!r}{_close(identifier, parameters)}")
+        parts = value if isinstance(value, list) else [value]
+        if any(isinstance(part, bool) for part in parts):  # which Python takes for numbers
+            raise TypeError(f"{identifier} has true or false in it: give numbers")
         values[identifier] = parameters[identifier].checked(value)
     if not values:
         raise ValueError("[values] is empty")
@@ -203,14 +195,14 @@ def _table(table: dict[str, object], key: str) -> dict[str, object]:
 def _found(identifier: str, items: tuple[Preset | Finish, ...], noun: str) -> Preset | Finish:
     by_identifier = {item.identifier: item for item in items}
     if identifier not in by_identifier:
-        close = _close(str(identifier), by_identifier)
-        raise PresetError(f"There is no {noun} {identifier!r}{close or ': choose one of the list'}")
+        remedy = _close(str(identifier), by_identifier) or ": choose one of the list"
+        raise PresetError(f"There is no {noun} {identifier!r}{remedy}")
     return by_identifier[identifier]
 
 
 def _close(word: str, words: Mapping[str, object]) -> str:
     close = get_close_matches(word, words)
-    return f": did you mean {', '.join(close)}?" if close else ""
+    return f" (did you mean {' or '.join(close)}?)" if close else ""
 
 
 def _error(path: Path, wrong: str, remedy: str) -> PresetError:
