@@ -8,16 +8,20 @@ from collections.abc import Callable
 
 import bpy
 
-from .ops import material, node, osl, presets
+from .ops import library, material, node, osl, presets, user_presets
 from .ui import menus, panels
+from .ui import presets as preset_panels
 
 _MODULES = (
     osl,
     material,
     node,
     presets,
+    user_presets,
+    library,
     menus,
     panels,
+    preset_panels,
 )
 
 # What undoes the registration, in the order in which it was done.
