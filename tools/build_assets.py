@@ -14,6 +14,8 @@ from pathlib import Path
 from addon.core.kinds import KINDS
 from addon.core.presets import Preset, presets, problems
 
+from .repack_blend import repack
+
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "build" / "assets"
 BLEND = "microbounce.blend"
@@ -25,7 +27,7 @@ CATALOGUES = {
 }
 # Blender finds a catalogue by this, so it must stay the same from version to version.
 _NAMESPACE = uuid.UUID("6d1f8f0e-0b5c-5c1e-9a57-1a9c5b3f7d42")
-_SOURCES = ("addon", "osl", "tools/build_assets.py")
+_SOURCES = ("addon", "osl", "tools/build_assets.py", "tools/repack_blend.py")
 
 
 def catalogue_id(kind: str) -> str:
@@ -70,6 +72,7 @@ def build(folder: Path) -> Path:
     blend = folder / BLEND
     # This writes the materials and what they need alone: nothing of the window or this machine.
     bpy.data.libraries.write(str(blend), materials, fake_user=True, compress=True)
+    repack(blend)
     lines = ["VERSION 1", ""]
     for kind, path in CATALOGUES.items():
         lines.append(f"{catalogue_id(kind)}:{path}:{path.replace('/', '-')}")

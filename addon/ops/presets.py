@@ -153,7 +153,7 @@ class MICROBOUNCE_OT_search_preset(_AppliesPreset, bpy.types.Operator):
             self.report({"ERROR"}, "There are no presets: install the extension again")
             return {"CANCELLED"}
         context.window_manager.invoke_search_popup(self)
-        return {"FINISHED"}
+        return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Apply what was chosen."""
