@@ -8,19 +8,20 @@ from collections.abc import Callable
 
 import bpy
 
-from .ops import convert, material, node, osl, update
-from .ui import convert as convert_panel
+from .ops import library, material, node, osl, presets, user_presets
 from .ui import menus, panels
+from .ui import presets as preset_panels
 
 _MODULES = (
     osl,
     material,
     node,
-    convert,
-    update,
+    presets,
+    user_presets,
+    library,
     menus,
     panels,
-    convert_panel,
+    preset_panels,
 )
 
 # What undoes the registration, in the order in which it was done.
