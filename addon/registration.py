@@ -9,16 +9,21 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import material, node, osl
-from .ui import menus, panels
+from .ops import check, material, node, osl
+from .ui import check as check_panels
+from .ui import handlers, menus, panels, preferences
 
 _MODULES = (
     osl,
     material,
     node,
+    check,
+    preferences,
     menus,
     panels,
     command,
+    check_panels,
+    handlers,
 )
 
 # What undoes the registration, in the order in which it was done.

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The check before rendering: what in a scene keeps materials of ours from looking as they should.
+
+It reads and changes nothing, and is quick, for it runs before each render.
+"""
+
+from functools import lru_cache
+
+import bpy
+
+from ..core.finding import Finding, by_level
+from ..core.kinds import kind_named
+from ..core.lamps import exact_warning
+from ..core.shader_source import inlined_source
+from .exact import enabled_lamps, uses_exact
+from .find import our_nodes
+from .group import GROUP_ERRORS, KIND_KEY, STAMP_KEY, _stamp, has_bytecode, script_node
+from .rendered import rendered_materials
+from .scene_status import scene_status
+
+_MISSING = "The library file of its node group is missing: it renders black."
+_FIND = "Use File > External Data > Find Missing Files, or put the library back."
+_NO_BYTECODE = "Its shader is not compiled; Cycles' own material shows."
+_MEND = "Add a material of the same kind in a Blender with Open Shading Language: that mends it."
+_IN_LIBRARY = "Mend it in the library file: add a material of the same kind there, and save."
+_NO_TEXT = "The text of its shader was deleted; it renders by the compiled one."
+_OLDER = "It was made by another version of Microbounce and renders as it did there."
+_UPDATE = "Use Update Materials to give it today's shader."
+_UPDATE_LIBRARY = "Use Update Materials in the library file, and save that."
+
+# What a scene's check found last, by the scene's number in this session.
+_last: dict[int, tuple[Finding, ...]] = {}
+
+
+def check_scene(
+    scene: bpy.types.Scene, preferences: bpy.types.Preferences
+) -> tuple[Finding, ...] | None:
+    """Return what is to know before `scene` is rendered, the worst first.
+
+    Returns None where no material of ours is rendered.
+    """
+    materials = [m for m in rendered_materials(scene) if m.node_tree]
+    used = {m: [node.node_tree for node in our_nodes(m.node_tree)] for m in materials}
+    used = {material: groups for material, groups in used.items() if groups}
+    if not used:
+        return None
+    found = _scene_findings(scene, preferences)
+    if not found:  # where the shaders do not run, Cycles' own material finds every light
+        found = _lights_findings(scene, [m for m in used if uses_exact(m.node_tree)])
+    for group in dict.fromkeys(group for groups in used.values() for group in groups):
+        users = [material for material, groups in used.items() if group in groups]
+        found += _group_findings(group, users)
+    return by_level(found)
+
+
+def remember(scene: bpy.types.Scene, findings: tuple[Finding, ...]) -> bool:
+    """Keep what was found for the panels; return whether it differs from the last time."""
+    changed = _last.get(scene.session_uid) != findings
+    _last[scene.session_uid] = findings
+    return changed
+
+
+def last_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
+    """Return what the last check of `scene` found, None where there was none."""
+    return _last.get(scene.session_uid)
+
+
+def forget(scene: bpy.types.Scene) -> None:
+    """Drop what was kept of `scene`."""
+    _last.pop(scene.session_uid, None)
+
+
+def forget_all() -> None:
+    """Drop what was kept of all scenes."""
+    _last.clear()
+
+
+def _scene_findings(scene: bpy.types.Scene, preferences: bpy.types.Preferences) -> list[Finding]:
+    status = scene_status(scene, preferences)
+    if status.ok:
+        return []
+    return [Finding("warning", f"Scene '{scene.name}'", status.reason, status.remedy)]
+
+
+def _lights_findings(scene: bpy.types.Scene, exact: list[bpy.types.Material]) -> list[Finding]:
+    if not exact:
+        return []
+    lamps = {
+        lamp: None for layer in scene.view_layers if layer.use for lamp in enabled_lamps(layer)
+    }
+    warning = exact_warning(lamps)
+    return [Finding("warning", _named(exact), warning)] if warning else []
+
+
+def _group_findings(group: bpy.types.NodeTree, users: list[bpy.types.Material]) -> list[Finding]:
+    """Return what is wrong with one of our groups; `users` are the materials that have it."""
+    subject, linked = _named(users), group.library is not None
+    if group.is_missing:
+        return [Finding("error", subject, _MISSING, _FIND)]
+    findings = []
+    if not has_bytecode(group):
+        findings.append(Finding("warning", subject, _NO_BYTECODE, _IN_LIBRARY if linked else _MEND))
+    elif script_node(group).script is None and script_node(group).mode == "INTERNAL":
+        findings.append(Finding("note", subject, _NO_TEXT, _IN_LIBRARY if linked else _MEND))
+    try:
+        older = group.get(STAMP_KEY) != _todays_stamp(group[KIND_KEY])
+    except GROUP_ERRORS as error:  # a damaged installation; the file itself still renders
+        return [*findings, Finding("note", subject, str(error))]
+    if older:
+        findings.append(Finding("note", subject, _OLDER, _UPDATE_LIBRARY if linked else _UPDATE))
+    return findings
+
+
+def _named(materials: list[bpy.types.Material]) -> str:
+    first, others = materials[0], len(materials) - 1
+    return f"Material '{first.name}'" + (f" and {others} more" if others else "")
+
+
+@lru_cache
+def _todays_stamp(kind: str) -> str:
+    made = kind_named(kind)
+    return _stamp(made, inlined_source(made.shader))
