@@ -9,8 +9,9 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import check, material, node, osl
+from .ops import check, farm, material, node, osl
 from .ui import check as check_panels
+from .ui import farm as farm_panels
 from .ui import handlers, menus, panels, preferences
 
 _MODULES = (
@@ -18,11 +19,13 @@ _MODULES = (
     material,
     node,
     check,
+    farm,
     preferences,
     menus,
     panels,
     command,
     check_panels,
+    farm_panels,
     handlers,
 )
 
