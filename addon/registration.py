@@ -9,7 +9,7 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import check, farm, material, node, osl
+from .ops import check, farm, material, node, osl, presets
 from .ui import check as check_panels
 from .ui import farm as farm_panels
 from .ui import handlers, menus, panels, preferences
@@ -18,6 +18,7 @@ _MODULES = (
     osl,
     material,
     node,
+    presets,
     check,
     farm,
     preferences,
