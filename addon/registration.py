@@ -9,8 +9,9 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import check, farm, material, node, osl, presets
+from .ops import check, convert, farm, material, node, osl, presets, update
 from .ui import check as check_panels
+from .ui import convert as convert_panel
 from .ui import farm as farm_panels
 from .ui import handlers, menus, panels, preferences
 
@@ -19,6 +20,8 @@ _MODULES = (
     material,
     node,
     presets,
+    convert,
+    update,
     check,
     farm,
     preferences,
@@ -26,6 +29,7 @@ _MODULES = (
     panels,
     command,
     check_panels,
+    convert_panel,
     farm_panels,
     handlers,
 )
