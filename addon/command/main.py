@@ -10,10 +10,10 @@ import argparse
 import sys
 
 from ..core import VERSION
-from . import check
+from . import check, convert, preset, presets, update
 from .output import CommandError, emit_error, reserved_output
 
-SUBCOMMANDS = (check,)
+SUBCOMMANDS = (check, presets, preset, convert, update)
 
 PROGRAM = "blender FILE --command microbounce"
 

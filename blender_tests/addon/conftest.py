@@ -29,3 +29,16 @@ def registered(empty_file):
     addon.register()
     yield empty_file
     addon.unregister()
+
+
+@pytest.fixture
+def command(registered, capfd):
+    """Runs the command; returns its exit code, standard output and standard error."""
+    from addon.command.main import main
+
+    def run(*argv):
+        capfd.readouterr()
+        code = main([str(word) for word in argv])
+        return code, *capfd.readouterr()
+
+    return run

@@ -12,19 +12,6 @@ from blender_tests.addon.support import small_scene
 
 
 @pytest.fixture
-def command(registered, capfd):
-    """Runs the command; returns its exit code, standard output and standard error."""
-    from addon.command.main import main
-
-    def run(*argv):
-        capfd.readouterr()
-        code = main([str(word) for word in argv])
-        return code, *capfd.readouterr()
-
-    return run
-
-
-@pytest.fixture
 def clean(registered, tmp_path):
     """A file with one of our materials and nothing to find."""
     from addon.nodes.group import new_material
