@@ -18,8 +18,9 @@ SUBCOMMANDS = (check, presets, preset, convert, update)
 PROGRAM = "blender FILE --command microbounce"
 
 _EPILOG = """\
-FILE may be left out and given after the subcommand as --file FILE. Nothing is saved unless --save
-or --save-as says so.
+FILE may be left out and given after the subcommand as --file FILE. --command runs without a window
+by itself; -b in front would print Blender's version above the output. Nothing is saved unless
+--save or --save-as says so.
 
 exit codes: 0 all is well, 1 something was found, 2 wrong use or an error
 """

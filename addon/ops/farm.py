@@ -6,8 +6,6 @@ from pathlib import Path
 import bpy
 
 from ..core.finding import Finding, by_level, counts, worst
-from ..nodes.farm.check import farm_findings
-from ..nodes.farm.proof import ProofError, prove
 from ..ui.text import message
 
 _PROVE = "Also render the saved file small, with and without the extension, and compare"
@@ -48,6 +46,10 @@ class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Check, keep the findings for the panel, and report how many there are."""
+        # Imported when it is used: a start of Blender pays nothing for it.
+        from ..nodes.farm.check import farm_findings
+        from ..nodes.farm.proof import ProofError
+
         findings = farm_findings(context.scene)
         if self.prove:
             try:
@@ -66,6 +68,8 @@ class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
         return {"FINISHED"}
 
     def _proof(self, context: bpy.types.Context) -> list[Finding]:
+        from ..nodes.farm.proof import ProofError, prove
+
         # Without a window Blender does not keep track of changes.
         changed = bpy.data.is_dirty and not bpy.app.background
         if not bpy.data.is_saved or changed:
@@ -75,11 +79,10 @@ class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
         manager.progress_begin(0, 2)
         steps = iter(range(2))
         try:
-            return prove(path, tell=lambda text: manager.progress_update(next(steps))).findings(
-                path
-            )
+            proof = prove(path, tell=lambda text: manager.progress_update(next(steps)))
         finally:
             manager.progress_end()
+        return proof.findings(path)
 
 
 CLASSES = (MICROBOUNCE_OT_check_farm,)

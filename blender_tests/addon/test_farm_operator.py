@@ -94,7 +94,6 @@ def test_the_proof_wants_a_saved_file(scene):
 
 def test_the_proof_of_the_operator(scene, tmp_path, monkeypatch):
     from addon.nodes.farm import proof
-    from addon.ops import farm
 
     path = tmp_path / "scene.blend"
     scene.ops.wm.save_as_mainfile(filepath=str(path))
@@ -106,7 +105,7 @@ def test_the_proof_of_the_operator(scene, tmp_path, monkeypatch):
         tell("2 of 2")
         return proof.Proof(difference=0.5, brightness=1.0, seconds=1.0)
 
-    monkeypatch.setattr(farm, "prove", prove)
+    monkeypatch.setattr(proof, "prove", prove)
     assert scene.ops.microbounce.check_farm(prove=True) == {"FINISHED"}
     assert asked == [path]
     (found,) = last(scene)
