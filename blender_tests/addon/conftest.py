@@ -29,3 +29,12 @@ def registered(empty_file):
     addon.register()
     yield empty_file
     addon.unregister()
+
+
+@pytest.fixture
+def osl_scene(registered):
+    """A scene of Cycles with OSL, a sphere and a light; the extension is registered."""
+    from blender_tests.addon.support import small_scene
+
+    scene, _ = small_scene(osl=True)
+    return scene
