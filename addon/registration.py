@@ -9,20 +9,28 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import check, material, node, osl
+from .ops import check, convert, farm, material, node, osl, presets, update
 from .ui import check as check_panels
+from .ui import convert as convert_panel
+from .ui import farm as farm_panels
 from .ui import handlers, menus, panels, preferences
 
 _MODULES = (
     osl,
     material,
     node,
+    presets,
+    convert,
+    update,
     check,
+    farm,
     preferences,
     menus,
     panels,
     command,
     check_panels,
+    convert_panel,
+    farm_panels,
     handlers,
 )
 

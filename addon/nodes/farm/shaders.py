@@ -36,7 +36,8 @@ def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
     try:
         source = inlined_source(kind.shader)
     except ShaderSourceError as error:
-        return [Finding("warning", subject, f"It cannot be compared: {error}.")]
+        message = "The extension's own shader cannot be read, so it was not compared."
+        return [Finding("warning", subject, message, f"{error}.")]
     current = group.get(STAMP_KEY) == _stamp(kind, source)
     found = _script_findings(group, subject, source if current else "")
     if not current:

@@ -34,10 +34,13 @@ def is_used(data: bpy.types.ID) -> bool:
 
 
 def material_uses() -> Iterator[Use]:
-    """Yield every material of the file that has a group of ours, or one that is missing."""
+    """Yield every material of the file that has a group of ours, or may have had one.
+
+    That is where the library of the material, or of a group in it, could not be read.
+    """
     for material in bpy.data.materials:
         use = _use(material)
-        if use.groups or use.lost:
+        if use.groups or use.lost or material.is_missing:
             yield use
 
 
