@@ -4,19 +4,16 @@
 It reads and changes nothing, and is quick, for it runs before each render.
 """
 
-from functools import lru_cache
-
 import bpy
 
 from ..core.finding import Finding, by_level
-from ..core.kinds import kind_named
 from ..core.lamps import exact_warning
-from ..core.shader_source import inlined_source
 from .exact import enabled_lamps, is_exact
 from .find import our_nodes, surface_tree
-from .group import GROUP_ERRORS, KIND_KEY, STAMP_KEY, _stamp, script_node
+from .group import GROUP_ERRORS, script_node
 from .rendered import rendered_materials
 from .scene_status import scene_status
+from .update import _is_newer, _is_ours_of_another_version
 
 _MISSING = "The library file of its node group is missing: it renders black."
 _FIND = "Use File > External Data > Find Missing Files, or put the library back."
@@ -27,7 +24,8 @@ _NO_BYTECODE = "Its shader is not compiled; Cycles' own material shows."
 _MEND = "Add a material of the same kind in a Blender with Open Shading Language: that mends it."
 _MEND_LIBRARY = "Mend it in the library file: add a material of the same kind there, and save."
 _NO_TEXT = "The text of its shader was deleted; it renders by the compiled one."
-_OLDER = "It was made by another version of Microbounce and renders as it did there."
+_OTHER = "It was made by another version of Microbounce and renders as it did there."
+_UPGRADE = "Install that newer version to change it."
 _UPDATE = "Use Update Materials to give it today's shader."
 _UPDATE_LIBRARY = "Use Update Materials in the library file, and save that."
 
@@ -117,20 +115,15 @@ def _group_findings(
     elif script.script is None and script.mode == "INTERNAL":
         findings.append(Finding("note", subject, _NO_TEXT, mend))
     try:
-        older = group.get(STAMP_KEY) != _todays_stamp(group[KIND_KEY])
+        other, newer = _is_ours_of_another_version(group), _is_newer(group)
     except GROUP_ERRORS as error:  # a damaged installation; the file itself still renders
-        return [*findings, Finding("note", subject, str(error))]
-    if older:
-        findings.append(Finding("note", subject, _OLDER, _UPDATE_LIBRARY if linked else _UPDATE))
+        return [*findings, Finding("note", subject, f"{error}.")]
+    if other:
+        older = _UPDATE_LIBRARY if linked else _UPDATE
+        findings.append(Finding("note", subject, _OTHER, _UPGRADE if newer else older))
     return findings
 
 
 def _named(materials: list[bpy.types.Material]) -> str:
     first, others = materials[0], len(materials) - 1
     return f"Material '{first.name}'" + (f" and {others} more" if others else "")
-
-
-@lru_cache
-def _todays_stamp(kind: str) -> str:
-    made = kind_named(kind)
-    return _stamp(made, inlined_source(made.shader))

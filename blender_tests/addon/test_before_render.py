@@ -189,12 +189,13 @@ def older(group):
     return "note", "another version", "Update Materials"
 
 
-def unknown_kind(group):
-    group["microbounce_kind"] = "VELVET"
-    return "note", "'VELVET'", ""
+def newer(group):
+    group["microbounce_version"] = "99.0.0"
+    older(group)
+    return "note", "another version", "Install that newer version"
 
 
-GROUPS = [no_bytecode, hash_alone, no_text, no_script, older, unknown_kind]
+GROUPS = [no_bytecode, hash_alone, no_text, no_script, older, newer]
 
 
 @pytest.mark.parametrize("case", GROUPS)
@@ -289,15 +290,14 @@ def test_a_missing_library(registered, tmp_path):
 
 def test_a_damaged_installation_is_a_note(osl_scene, monkeypatch):
     from addon.core.shader_source import ShaderSourceError
-    from addon.nodes import before_render
+    from addon.nodes import update
 
     def missing(name):
         raise ShaderSourceError(f"The shader file {name}.osl is missing. Reinstall the extension")
 
     give_material()
-    before_render.forget_all()
-    before_render._todays_stamp.cache_clear()
-    monkeypatch.setattr(before_render, "inlined_source", missing)
+    update._todays_stamp.cache_clear()
+    monkeypatch.setattr(update, "inlined_source", missing)
     finding = the_finding(osl_scene)
     assert finding.level == "note"
     assert "Reinstall the extension" in finding.message
