@@ -82,13 +82,24 @@ def save_file(arguments: argparse.Namespace) -> str:
     check_target(arguments)
     target = os.path.abspath(arguments.save_as or bpy.data.filepath)
     try:
-        bpy.ops.wm.save_as_mainfile(filepath=target, check_existing=False)
+        # Blender 4.5 would forget, in background, that the file was compressed.
+        bpy.ops.wm.save_as_mainfile(
+            filepath=target, check_existing=False, compress=_is_compressed(bpy.data.filepath)
+        )
     except RuntimeError as error:
         reason = str(error).strip().removeprefix("Error: ")
         raise CommandError(
             f"{target} cannot be written: {reason}. Choose another folder"
         ) from error
     return target
+
+
+def _is_compressed(path: str) -> bool:
+    try:
+        with open(path, "rb") as file:
+            return file.read(7) != b"BLENDER"
+    except OSError:  # it was moved away meanwhile
+        return False
 
 
 def saved(target: str) -> str:

@@ -8,6 +8,7 @@ result to `output.emit` and raises CommandError for what the user has to put rig
 
 import argparse
 import sys
+import traceback
 
 from ..core import VERSION
 from . import check, convert, preset, presets, update
@@ -70,4 +71,8 @@ def main(argv: list[str]) -> int:
         except CommandError as error:
             print(f"Error: {error}", file=sys.stderr)
             emit_error(arguments, str(error))
+            return 2
+        except Exception as error:  # noqa: BLE001 - Blender would leave with 1, "found something"
+            traceback.print_exc()
+            emit_error(arguments, f"{type(error).__name__}: {error}")
             return 2

@@ -4,27 +4,28 @@
 It reads and changes nothing, and is quick, for it runs before each render.
 """
 
-from functools import lru_cache
-
 import bpy
 
 from ..core.finding import Finding, by_level
-from ..core.kinds import kind_named
 from ..core.lamps import exact_warning
-from ..core.shader_source import inlined_source
-from .exact import enabled_lamps, uses_exact
-from .find import our_nodes
-from .group import GROUP_ERRORS, KIND_KEY, STAMP_KEY, _stamp, has_bytecode, script_node
+from .exact import enabled_lamps, is_exact
+from .find import our_nodes, surface_tree
+from .group import GROUP_ERRORS, script_node
 from .rendered import rendered_materials
 from .scene_status import scene_status
+from .update import _is_newer, _is_ours_of_another_version
 
 _MISSING = "The library file of its node group is missing: it renders black."
 _FIND = "Use File > External Data > Find Missing Files, or put the library back."
+_NO_SCRIPT = "The script node in its node group is gone; Cycles' own material shows."
+_REPLACE = "Add a material of the same kind, and use its node group instead."
+_HASH_ALONE = "Its shader's bytecode was taken out, but not the hash: Blender 5.2 stops on that."
 _NO_BYTECODE = "Its shader is not compiled; Cycles' own material shows."
 _MEND = "Add a material of the same kind in a Blender with Open Shading Language: that mends it."
-_IN_LIBRARY = "Mend it in the library file: add a material of the same kind there, and save."
+_MEND_LIBRARY = "Mend it in the library file: add a material of the same kind there, and save."
 _NO_TEXT = "The text of its shader was deleted; it renders by the compiled one."
-_OLDER = "It was made by another version of Microbounce and renders as it did there."
+_OTHER = "It was made by another version of Microbounce and renders as it did there."
+_UPGRADE = "Install that newer version to change it."
 _UPDATE = "Use Update Materials to give it today's shader."
 _UPDATE_LIBRARY = "Use Update Materials in the library file, and save that."
 
@@ -39,17 +40,22 @@ def check_scene(
 
     Returns None where no material of ours is rendered.
     """
-    materials = [m for m in rendered_materials(scene) if m.node_tree]
-    used = {m: [node.node_tree for node in our_nodes(m.node_tree)] for m in materials}
-    used = {material: groups for material, groups in used.items() if groups}
-    if not used:
+    users: dict[bpy.types.NodeTree, list[bpy.types.Material]] = {}
+    exact: list[bpy.types.Material] = []
+    for material in rendered_materials(scene):
+        tree = surface_tree(material)
+        nodes = list(our_nodes(tree)) if tree is not None else []
+        for group in {node.node_tree for node in nodes}:
+            users.setdefault(group, []).append(material)
+        if any(map(is_exact, nodes)):
+            exact.append(material)
+    if not users:
         return None
     found = _scene_findings(scene, preferences)
-    if not found:  # where the shaders do not run, Cycles' own material finds every light
-        found = _lights_findings(scene, [m for m in used if uses_exact(m.node_tree)])
-    for group in dict.fromkeys(group for groups in used.values() for group in groups):
-        users = [material for material, groups in used.items() if group in groups]
-        found += _group_findings(group, users)
+    if exact and not found:  # where the shaders do not run, Cycles' own material finds every light
+        found = _lights_findings(scene, exact)
+    for group, materials in users.items():
+        found += _group_findings(group, materials)
     return by_level(found)
 
 
@@ -83,8 +89,6 @@ def _scene_findings(scene: bpy.types.Scene, preferences: bpy.types.Preferences) 
 
 
 def _lights_findings(scene: bpy.types.Scene, exact: list[bpy.types.Material]) -> list[Finding]:
-    if not exact:
-        return []
     lamps = {
         lamp: None for layer in scene.view_layers if layer.use for lamp in enabled_lamps(layer)
     }
@@ -92,31 +96,34 @@ def _lights_findings(scene: bpy.types.Scene, exact: list[bpy.types.Material]) ->
     return [Finding("warning", _named(exact), warning)] if warning else []
 
 
-def _group_findings(group: bpy.types.NodeTree, users: list[bpy.types.Material]) -> list[Finding]:
-    """Return what is wrong with one of our groups; `users` are the materials that have it."""
-    subject, linked = _named(users), group.library is not None
+def _group_findings(
+    group: bpy.types.NodeTree, materials: list[bpy.types.Material]
+) -> list[Finding]:
+    """Return what is wrong with one of our groups; `materials` are those that have it."""
+    subject, linked = _named(materials), group.library is not None
     if group.is_missing:
         return [Finding("error", subject, _MISSING, _FIND)]
     findings = []
-    if not has_bytecode(group):
-        findings.append(Finding("warning", subject, _NO_BYTECODE, _IN_LIBRARY if linked else _MEND))
-    elif script_node(group).script is None and script_node(group).mode == "INTERNAL":
-        findings.append(Finding("note", subject, _NO_TEXT, _IN_LIBRARY if linked else _MEND))
+    mend = _MEND_LIBRARY if linked else _MEND
+    script = script_node(group)
+    if script is None:
+        findings.append(Finding("warning", subject, _NO_SCRIPT, _REPLACE))
+    elif not script.bytecode and script.bytecode_hash:
+        findings.append(Finding("error", subject, _HASH_ALONE, mend))
+    elif not script.bytecode_hash:  # Cycles goes by the hash
+        findings.append(Finding("warning", subject, _NO_BYTECODE, mend))
+    elif script.script is None and script.mode == "INTERNAL":
+        findings.append(Finding("note", subject, _NO_TEXT, mend))
     try:
-        older = group.get(STAMP_KEY) != _todays_stamp(group[KIND_KEY])
+        other, newer = _is_ours_of_another_version(group), _is_newer(group)
     except GROUP_ERRORS as error:  # a damaged installation; the file itself still renders
-        return [*findings, Finding("note", subject, str(error))]
-    if older:
-        findings.append(Finding("note", subject, _OLDER, _UPDATE_LIBRARY if linked else _UPDATE))
+        return [*findings, Finding("note", subject, f"{error}.")]
+    if other:
+        older = _UPDATE_LIBRARY if linked else _UPDATE
+        findings.append(Finding("note", subject, _OTHER, _UPGRADE if newer else older))
     return findings
 
 
 def _named(materials: list[bpy.types.Material]) -> str:
     first, others = materials[0], len(materials) - 1
     return f"Material '{first.name}'" + (f" and {others} more" if others else "")
-
-
-@lru_cache
-def _todays_stamp(kind: str) -> str:
-    made = kind_named(kind)
-    return _stamp(made, inlined_source(made.shader))

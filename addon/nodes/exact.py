@@ -14,12 +14,14 @@ _EXACT = _QUALITY.checked("Exact")
 
 
 def uses_exact(tree: bpy.types.NodeTree) -> bool:
-    """Return whether a node of ours in `tree`, or in a group within it, is set to Exact.
+    """Return whether a node of ours in `tree`, or in a group within it, is set to Exact."""
+    return any(map(is_exact, our_nodes(tree)))
 
-    A Quality that is linked is not followed.
-    """
-    qualities = (node.inputs.get(_QUALITY.label) for node in our_nodes(tree))
-    return any(q and not q.is_linked and q.default_value == _EXACT for q in qualities)
+
+def is_exact(node: bpy.types.ShaderNodeGroup) -> bool:
+    """Return whether a node of ours is set to Exact; a Quality that is linked is not followed."""
+    quality = node.inputs.get(_QUALITY.label)
+    return bool(quality and not quality.is_linked and quality.default_value == _EXACT)
 
 
 def enabled_lamps(view_layer: bpy.types.ViewLayer) -> list[Lamp]:

@@ -11,6 +11,13 @@ from .group import KIND_KEY
 _NAMES = frozenset(kind.name for kind in KINDS.values())
 
 
+def surface_tree(material: bpy.types.Material) -> bpy.types.ShaderNodeTree | None:
+    """Return the node tree that `material` renders by, None where it has none."""
+    # Later nodes are always on, and the property is deprecated.
+    on = bpy.app.version >= (5, 0, 0) or material.use_nodes
+    return material.node_tree if on else None
+
+
 def our_nodes(tree: bpy.types.NodeTree) -> Iterator[bpy.types.ShaderNodeGroup]:
     """Yield the nodes in `tree`, or in a group within it, whose group is one of ours.
 

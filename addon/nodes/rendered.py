@@ -5,10 +5,15 @@ from collections.abc import Iterator
 
 import bpy
 
+_SOCKET = "NodeSocketMaterial"
+
 
 def rendered_objects(view_layer: bpy.types.ViewLayer) -> Iterator[bpy.types.Object]:
     """Yield the objects that the layer renders; one with several users may come again."""
-    yield from _in_layer(view_layer.layer_collection)
+    if view_layer.layer_collection is None:  # Blender 5.2, in a scene that was never shown
+        yield from _instanced(view_layer.id_data.collection)
+    else:
+        yield from _in_layer(view_layer.layer_collection)
 
 
 def rendered_materials(scene: bpy.types.Scene) -> list[bpy.types.Material]:
@@ -17,23 +22,33 @@ def rendered_materials(scene: bpy.types.Scene) -> list[bpy.types.Material]:
     Those that geometry nodes set are among them where a modifier, or a group that it uses, names
     them.
     """
-    materials: dict[bpy.types.Material, None] = {}
+    materials: dict[bpy.types.Material | None, None] = {}
     objects = {o: None for layer in scene.view_layers if layer.use for o in rendered_objects(layer)}
     trees: dict[bpy.types.NodeTree, None] = {}
     for obj in objects:
         for slot in obj.material_slots:
-            if slot.material is not None:
-                materials[slot.material] = None
+            materials[slot.material] = None
         for modifier in obj.modifiers:
             if modifier.type == "NODES" and modifier.show_render and modifier.node_group:
                 trees[modifier.node_group] = None
-                values = (modifier[key] for key in modifier.keys())  # noqa: SIM118 - no mapping
-                materials |= {v: None for v in values if isinstance(v, bpy.types.Material)}
+                materials |= dict.fromkeys(_inputs(modifier))
     for tree in _with_groups(trees):
         for node in tree.nodes:
-            sockets = (s for s in node.inputs if s.bl_idname == "NodeSocketMaterial")
-            materials |= {s.default_value: None for s in sockets if s.default_value is not None}
+            sockets = (s for s in node.inputs if s.bl_idname == _SOCKET)
+            materials |= {socket.default_value: None for socket in sockets}
+    materials.pop(None, None)
     return list(materials)
+
+
+def _inputs(modifier: bpy.types.NodesModifier) -> Iterator[bpy.types.Material | None]:
+    """Yield the materials that a modifier hands to its node group."""
+    for item in modifier.node_group.interface.items_tree:
+        if item.item_type != "SOCKET" or (item.in_out, item.socket_type) != ("INPUT", _SOCKET):
+            continue
+        if hasattr(modifier, "properties"):  # Blender 5.2
+            yield getattr(modifier.properties.inputs, item.identifier).value
+        else:
+            yield modifier.get(item.identifier)
 
 
 def _with_groups(trees: dict[bpy.types.NodeTree, None]) -> list[bpy.types.NodeTree]:

@@ -5,10 +5,8 @@ import bpy
 
 from ..nodes.before_render import last_findings
 from ..ops.check import MICROBOUNCE_OT_check_render
-from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_text
-from .text import message
-
-_ICONS = {"error": "CANCEL", "warning": "ERROR", "note": "INFO"}
+from .findings import draw_findings
+from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
 
 
 class _CheckPanel:
@@ -22,13 +20,8 @@ class _CheckPanel:
         layout = self.layout
         layout.operator(MICROBOUNCE_OT_check_render.bl_idname, icon="VIEWZOOM")
         findings = last_findings(context.scene)
-        if findings is None:
-            return
-        for finding in findings:
-            parts = (finding.subject + ":", message(finding.message), message(finding.remedy))
-            draw_text(layout, context, " ".join(parts), _ICONS[finding.level])
-        if not findings:
-            layout.label(text="Nothing was found", icon="CHECKMARK")
+        if findings is not None:
+            draw_findings(layout, context, findings)
 
 
 class MICROBOUNCE_PT_check_shader_editor(_CheckPanel, bpy.types.Panel):

@@ -42,3 +42,12 @@ def command(registered, capfd):
         return code, *capfd.readouterr()
 
     return run
+
+
+@pytest.fixture
+def osl_scene(registered):
+    """A scene of Cycles with OSL, a sphere and a light; the extension is registered."""
+    from blender_tests.addon.support import small_scene
+
+    scene, _ = small_scene(osl=True)
+    return scene

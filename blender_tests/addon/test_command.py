@@ -55,7 +55,7 @@ def test_check_of_a_faulty_file(command, faulty):
     assert all(set(f) == {"level", "subject", "message", "remedy"} for f in result["findings"])
     code, out, _ = command("check", "--file", faulty)
     assert code == 1
-    assert "Error: Node group 'Microbounce Diffuse': Its shader has no bytecode" in out
+    assert "Error: Node group 'Microbounce Diffuse': Its bytecode was taken out" in out
     assert out.endswith(f"{faulty}: 2 errors found\n")
 
 
@@ -200,3 +200,23 @@ def test_a_target_that_cannot_be_written(clean, registered, tmp_path):
     (tmp_path / "new.blend").mkdir()
     with pytest.raises(CommandError, match=r"cannot be written: .*Choose another folder"):
         save_file(save_arguments("--save-as", tmp_path / "new.blend", "--overwrite"))
+
+
+def test_a_bug_is_not_taken_for_a_finding(command, clean, monkeypatch):
+    from addon.command import check
+
+    monkeypatch.setattr(check, "farm_findings", lambda scene: 1 / 0)
+    code, out, err = command("check", "--json")
+    assert code == 2
+    assert "ZeroDivisionError" in json.loads(out)["error"]
+    assert "Traceback" in err
+
+
+def test_a_compressed_file_stays_compressed(registered, clean):
+    from addon.command.files import save_file
+
+    registered.ops.wm.save_as_mainfile(filepath=str(clean), compress=True)
+    magic = clean.read_bytes()[:4]
+    assert magic != b"BLEN"
+    assert save_file(save_arguments("--save")) == str(clean)
+    assert clean.read_bytes()[:4] == magic

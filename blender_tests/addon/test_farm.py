@@ -57,8 +57,9 @@ def test_files_without_our_materials_have_none(registered):
 @pytest.mark.parametrize(
     ("lost", "level", "words"),
     [
-        ("bytecode", "error", "has no bytecode"),
-        ("bytecode_hash", "error", "has no bytecode"),
+        ("bytecode", "error", "but not the hash"),
+        ("both", "error", "has no bytecode"),
+        ("bytecode_hash", "error", "hash of its bytecode is gone"),
         ("text", "warning", "source is gone"),
         ("script", "error", "script node is gone"),
     ],
@@ -69,7 +70,8 @@ def test_what_was_taken_out_of_a_group_is_missed(scene, lost, level, words):
     elif lost == "script":
         scene.group.nodes.remove(scene.script)
     else:
-        setattr(scene.script, lost, "")
+        for name in ("bytecode", "bytecode_hash") if lost == "both" else (lost,):
+            setattr(scene.script, name, "")
     found = the_finding(scene.scene)
     assert found[:2] == (level, "Node group 'Microbounce Conductor'")
     assert words in found[2]
@@ -139,12 +141,15 @@ def test_a_blender_without_osl_says_that_it_did_not_compare(scene, monkeypatch):
 
 
 def test_a_group_of_another_version_is_a_note(scene):
-    from addon.nodes.group import KIND_KEY, STAMP_KEY
+    from addon.nodes.group import KIND_KEY, STAMP_KEY, VERSION_KEY
 
     scene.group[STAMP_KEY] = "0123456789abcdef"
     assert the_finding(scene.scene)[0] == "note"
     del scene.group[STAMP_KEY]
     assert the_finding(scene.scene)[0] == "note"
+    assert "Update Materials" in findings(scene.scene)[0].remedy
+    scene.group[VERSION_KEY] = "99.0.0"
+    assert "newer version" in findings(scene.scene)[0].remedy
     scene.group[KIND_KEY] = "VELVET"
     level, _, message = the_finding(scene.scene)
     assert level == "warning"
@@ -185,7 +190,7 @@ def test_an_unused_material_gives_notes_at_most(scene):
     scene.material.use_fake_user = True
     level, _, message = the_finding(scene.scene)
     assert level == "note"
-    assert "has no bytecode" in message
+    assert "bytecode was taken out" in message
 
 
 def test_groups_within_a_users_own_groups_count_once(scene):
@@ -200,7 +205,7 @@ def test_groups_within_a_users_own_groups_count_once(scene):
     scene.sphere.data.materials[0] = material
     bpy.data.materials.remove(scene.material)
     scene.script.bytecode = ""
-    assert "has no bytecode" in the_finding(scene.scene)[2]
+    assert "bytecode was taken out" in the_finding(scene.scene)[2]
 
 
 def add_image(scene, image):

@@ -101,8 +101,7 @@ def _rendered(path: Path, target: Path, extension: str, time_limit: float) -> Pa
     try:
         done = subprocess.run(
             [*command, "--", str(path), str(target), extension],
-            # An empty folder for user files: neither preferences nor installed extensions.
-            env=os.environ | {"BLENDER_USER_RESOURCES": str(resources)},
+            env=_environment(resources),
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
@@ -122,3 +121,12 @@ def _rendered(path: Path, target: Path, extension: str, time_limit: float) -> Pa
         reason = lines[-1].strip() if lines else f"it left with exit code {done.returncode}"
         raise ProofError(f"The render {who} failed: {reason}")
     return target
+
+
+def _environment(resources: Path) -> dict[str, str]:
+    """Return this process's variables, but with an empty folder for all of Blender's user files.
+
+    So there are neither preferences nor installed extensions.
+    """
+    kept = {name: text for name, text in os.environ.items() if not name.startswith("BLENDER_USER_")}
+    return kept | {"BLENDER_USER_RESOURCES": str(resources)}
