@@ -13,11 +13,11 @@ PANELS = ("MICROBOUNCE_PT_farm_material", "MICROBOUNCE_PT_farm_shader_editor")
 
 @pytest.fixture
 def scene(registered):
-    """A scene with our glass; returns bpy."""
+    """A scene with our matte material; returns bpy."""
     from addon.nodes.group import new_material
 
     _, sphere = small_scene(osl=True)
-    sphere.data.materials.append(new_material("DIELECTRIC", "Ours"))
+    sphere.data.materials.append(new_material("DIFFUSE", "Ours"))
     return registered
 
 

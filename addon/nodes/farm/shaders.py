@@ -22,7 +22,7 @@ _UPGRADE = "Install that newer version to change it."
 _COMPILE = "Press the update button of the script node in the group."
 _COMPLETE = "Add a Microbounce material of this kind once more, which completes the group."
 _REPLACE = "Add a material of the same kind, and use its node group instead."
-_IN_LIBRARY = "Mend it in the library file, and save that."
+_IN_LIBRARY = "Open the library file, check that, mend it there and save it."
 
 
 def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
@@ -45,11 +45,13 @@ def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
         return [Finding("warning", subject, message, f"{error}.")]
     other = _is_ours_of_another_version(group)
     found = _script_findings(group, subject, "" if other else source)
-    if group.library:
-        found = [replace(finding, remedy=_IN_LIBRARY) for finding in found]
+    change = _UPGRADE if _is_newer(group) else _UPDATE
+    elsewhere = _IN_LIBRARY if group.library else change if other else ""
+    if elsewhere:
+        found = [f if f.level == "note" else replace(f, remedy=elsewhere) for f in found]
     if other:
         message = "Another version of the extension made it; it renders as that version did."
-        found.append(Finding("note", subject, message, _UPGRADE if _is_newer(group) else _UPDATE))
+        found.append(Finding("note", subject, message, elsewhere))
     return found
 
 
