@@ -23,6 +23,7 @@ def image_findings(uses: Iterable[Use]) -> list[Finding]:
     }
     found = []
     for image, material in images.items():
+        remedy = "Pack it: File > External Data."
         if image.is_dirty:
             message = "It has been painted on and not saved."
         elif image.packed_file or image.packed_files or image.source not in _FILE_SOURCES:
@@ -31,8 +32,9 @@ def image_findings(uses: Iterable[Use]) -> list[Finding]:
             message = f"It is the file {image.filepath}, outside this one."
         else:
             message = f"Its file {image.filepath} is missing."
+            remedy = "Put the file back, and pack it: File > External Data."
         subject = f"Image '{image.name}' of material '{material.name}'"
-        found.append(Finding("warning", subject, message, "Pack it: File > External Data."))
+        found.append(Finding("warning", subject, message, remedy))
     return found
 
 
