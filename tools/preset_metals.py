@@ -7,7 +7,7 @@ Beryllium | main/Be/Rakic-BB | Model fitted to several measurements | light, gra
 Brass | other/Cu-Zn/Querry-Cu70Zn30 | 70 % copper, 30 % zinc | alloy, yellow
 Caesium | main/Cs/Smith | Alkali metal, gold in colour | alkali, yellow, cesium
 Calcium | main/Ca/Mathewson | Pure, at 298 K | alkaline earth, white
-Chromium | main/Cr/Johnson | Pure, as in chrome plating | plating, gray, chrome
+Chromium | main/Cr/Rakic-BB | Model fitted to several measurements | plating, gray, chrome
 Cobalt | main/Co/Johnson | Pure, at room temperature | magnetic, gray
 Commercial Bronze | other/Cu-Zn/Querry-Cu90Zn10 | 90 % copper, 10 % zinc | alloy, red, bronze
 Copper | main/Cu/McPeak | Evaporated smooth film | red
