@@ -188,8 +188,8 @@ VALUES = [
     (GLOSSY, {"Color": (1.0, 1.0, 1.0, 1.0)}, {"Edge Tint": (1.0, 1.0, 1.0, 1.0)}),
     (GLASS, {"IOR": 2.0, "Roughness": 0.1}, {"IOR": 2.0, "Roughness": 0.1}),
     (GLASS, {"IOR": 500.0}, {"IOR": 100.0}),
-    (DIFFUSE, {"Roughness": 0.125}, {"Roughness": 0.5}),
-    (DIFFUSE, {"Roughness": 0.9}, {"Roughness": 1.0}),
+    (DIFFUSE, {"Roughness": 0.0}, {"Roughness": 0.0}),
+    (DIFFUSE, {"Roughness": 1.0}, {"Roughness": 0.8}),
     (
         PRINCIPLED,
         {"Metallic": 1.0, "Specular_Tint": (0.9, 0.8, 0.7, 1.0), "Anisotropic_Rotation": 0.2},

@@ -11,6 +11,9 @@ _FITTED = _CONDUCTOR["Quality"].checked("Fitted")
 _GGX = _CONDUCTOR["Distribution"].checked("GGX")
 _BECKMANN = _CONDUCTOR["Distribution"].checked("Beckmann")
 
+# Above these, the mean colour with Multiscatter GGX differs from ours by 2 % or more.
+_VISIBLE_GLASS, _VISIBLE_METAL = 0.35, 0.7
+
 _NAMES = {"GGX": _GGX, "MULTI_GGX": _GGX, "BECKMANN": _BECKMANN}
 
 
@@ -27,11 +30,30 @@ def distribution_to_ours(native: State, made: Translation) -> None:
         )
     made.values["Distribution"] = _NAMES[name]
     made.values["Quality"] = _FITTED
-    if name != "MULTI_GGX":
+    if name == "MULTI_GGX":
+        _note_scaled(made)
+    else:
         made.notes.append(
             f"Cycles' {name if name == 'GGX' else name.title()} leaves further bounces out: it "
             "becomes brighter where rough. Quality 0 (Single) leaves them out too"
         )
+
+
+def _note_scaled(made: Translation) -> None:
+    """Note where Multiscatter GGX, which scales the light of one bounce, differs visibly.
+
+    Inputs that are linked or animated count with the values that they hide.
+    """
+    if made.target == "DIELECTRIC":
+        if made.values["Roughness"] > _VISIBLE_GLASS:
+            made.notes.append(
+                "Cycles' rough glass is some per cent too bright where lights are sampled: it "
+                "becomes darker"
+            )
+    elif made.values["Anisotropy"] > 0.0:
+        made.notes.append("Anisotropic Multiscatter GGX loses light: it becomes brighter")
+    elif made.values["Roughness"] > _VISIBLE_METAL:
+        made.notes.append("Very rough metal becomes some per cent brighter")
 
 
 def distribution_to_native(ours: State, made: Translation) -> None:

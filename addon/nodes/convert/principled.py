@@ -67,8 +67,8 @@ def _glass_to_ours(native: State) -> Translation:
     made.derive(native, "Base Color", "Color", _each(math.sqrt))
     if native.values["Base Color"][:3] != _WHITE[:3]:
         made.notes.append(
-            "Color is the square root of Base Color, and tints reflections too: Principled BSDF "
-            "leaves those white"
+            "Color is the square root of Base Color, and tints reflections too, which are white in "
+            "Principled BSDF: strong colours become darker"
         )
     distribution_to_ours(native, made)
     return made

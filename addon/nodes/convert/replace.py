@@ -24,7 +24,7 @@ def take_place(
 ) -> None:
     """Give `new` the links, animation, looks, place and name of `old`, and remove `old`.
 
-    `carried` are the names of inputs of `old` to those of `new`; the first outputs correspond.
+    `carried` are the names of inputs of `old` to those of `new`; both have an output BSDF.
     `links` are made besides, as far as their nodes are still there. A link to an input that is not
     in `carried` is lost.
     """
@@ -33,8 +33,8 @@ def take_place(
     for name, other in carried.items():
         for link in inputs[name].links:
             _link(tree, link.from_socket, targets[other], link.is_muted)
-    for link in list(old.outputs[0].links):
-        _link(tree, new.outputs[0], link.to_socket, link.is_muted)
+    for link in list(old.outputs["BSDF"].links):
+        _link(tree, new.outputs["BSDF"], link.to_socket, link.is_muted)
     for link in links:
         source = source_of(tree, link)
         if source is not None and link.socket in targets:

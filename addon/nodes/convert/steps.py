@@ -111,9 +111,9 @@ def _step(tree: bpy.types.NodeTree, node: bpy.types.Node, direction: str, curves
     state, record = read_state(node, animated), read_record(node)
     kind = group_kind(node)
     notes = []
-    if kind and not {p.label for p in KINDS[kind].parameters} <= set(state.values):
+    if kind and not _is_complete(kind, node):
         raise NotConvertibleError(
-            "Its node group is of another version, or was changed: update the materials first"
+            "Its node group is of another version, or was changed: take Update Materials first"
         )
     if direction == TO_OURS:
         made, record = _to_ours(state, record)
@@ -135,6 +135,11 @@ def _step(tree: bpy.types.NodeTree, node: bpy.types.Node, direction: str, curves
     return Step(
         Entry(node.name, _type_name(node), target, tuple(notes)), state, made, record, curves
     )
+
+
+def _is_complete(kind: str, node: bpy.types.Node) -> bool:
+    labels = {parameter.label for parameter in KINDS[kind].parameters}
+    return labels <= {socket.name for socket in node.inputs} and "BSDF" in node.outputs
 
 
 def _to_ours(state: State, record: Record | None) -> tuple[Translation, Record | None]:
