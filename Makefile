@@ -17,7 +17,7 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 .NOTPARALLEL:
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon references figures tables scenes clean
+.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon assets previews references figures tables scenes clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -46,8 +46,16 @@ lint: ## Check the code's form: ruff, and the rules for the OSL sources
 format: ## Format the Python sources and fix what ruff can fix
 	@$(any) -m ruff check --fix . ; "$$python" -m ruff format .
 
-addon: ## Build the extension's zip into dist/ and validate it
-	@$(any) tools/build_addon.py
+addon: ## Build the extension's zip into dist/ and validate it; needs Python 3.11 for the asset library
+	@if python="$$(tools/environment.sh 4.5)"; then "$$python" -m tools.build_assets; \
+	else echo "Going on without the asset library, which Blender 4.5 builds." >&2; fi
+	@$(any) -m tools.build_addon
+
+assets: ## Build the asset library of the presets into build/assets, with Blender 4.5 so that both open it
+	@$(on_4.5) -m tools.build_assets
+
+previews: ## Render the presets' pictures that are missing or old (addon/previews)
+	@$(any) -m tools.render_previews
 
 references: ## Render the oracle's reference pictures anew (about 35 minutes)
 	@$(any) -m blender_tests.oracle.references

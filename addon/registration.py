@@ -9,17 +9,31 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import check, convert, farm, material, node, osl, presets, update
+from .ops import (
+    check,
+    convert,
+    farm,
+    library,
+    material,
+    node,
+    osl,
+    presets,
+    update,
+    user_presets,
+)
 from .ui import check as check_panels
 from .ui import convert as convert_panel
 from .ui import farm as farm_panels
 from .ui import handlers, menus, panels, preferences
+from .ui import presets as preset_panels
 
 _MODULES = (
     osl,
     material,
     node,
     presets,
+    user_presets,
+    library,
     convert,
     update,
     check,
@@ -27,6 +41,7 @@ _MODULES = (
     preferences,
     menus,
     panels,
+    preset_panels,
     command,
     check_panels,
     convert_panel,

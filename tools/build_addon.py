@@ -12,6 +12,8 @@ import sys
 import tomllib
 from pathlib import Path
 
+from . import build_assets
+
 ROOT = Path(__file__).resolve().parent.parent
 
 
@@ -30,9 +32,10 @@ def extension_builder() -> Path:
     return found[-1]
 
 
-def stage(folder: Path) -> None:
+def stage(folder: Path, library: Path | None = None) -> None:
     """Lay out in `folder`, which must be empty, what the zip will hold.
 
+    library -- the folder of the asset library that goes into it, None for a zip without
     Raises FileNotFoundError where the repository has no shader.
     """
     shutil.copytree(
@@ -49,18 +52,23 @@ def stage(folder: Path) -> None:
         target = folder / "osl" / source.relative_to(ROOT / "osl")
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(source, target)
+    if library is not None:
+        (folder / "assets").mkdir()
+        for name in (build_assets.BLEND, build_assets.CATALOGUE_FILE):
+            shutil.copy2(library / name, folder / "assets")
 
 
-def build(output: Path, work: Path) -> Path:
+def build(output: Path, work: Path, library: Path | None = None) -> Path:
     """Build and validate the zip in folder `output` by way of folder `work`; return its path.
 
+    library -- as in stage()
     Raises subprocess.CalledProcessError where Blender's builder or validator refuses.
     """
     folder = work / "addon"
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
-    stage(folder)
+    stage(folder, library)
     manifest = tomllib.loads((folder / "blender_manifest.toml").read_text(encoding="utf-8"))
     archive = output / f"{manifest['id']}-{manifest['version']}.zip"
     output.mkdir(parents=True, exist_ok=True)
@@ -81,9 +89,16 @@ def main() -> int:
     parser.add_argument(
         "--work", type=Path, default=ROOT / "build", help="folder for the files to pack"
     )
+    parser.add_argument(
+        "--library", type=Path, default=build_assets.FOLDER, help="folder of the asset library"
+    )
     arguments = parser.parse_args()
+    library = arguments.library.resolve()
+    if not build_assets.is_current(library):
+        print("The zip is made without the asset library: `make assets` builds it (Blender 4.5)")
+        library = None
     try:
-        archive = build(arguments.output.resolve(), arguments.work.resolve())
+        archive = build(arguments.output.resolve(), arguments.work.resolve(), library)
     except (FileNotFoundError, subprocess.CalledProcessError) as error:
         print(f"The extension was not built: {error}", file=sys.stderr)
         return 1

@@ -14,6 +14,7 @@ import pytest
 from addon.core import VERSION
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import ROOT, read_picture, run_blender
+from tools import build_addon
 
 
 @pytest.fixture(scope="module")
@@ -23,9 +24,11 @@ def archive(tmp_path_factory):
     done = subprocess.run(
         [
             sys.executable,
-            str(ROOT / "tools" / "build_addon.py"),
+            *("-m", "tools.build_addon"),
             *("--output", str(folder / "dist"), "--work", str(folder / "build")),
+            *("--library", str(folder / "none")),
         ],
+        cwd=ROOT,
         capture_output=True,
         text=True,
         check=False,
@@ -52,17 +55,14 @@ def test_zip_holds_no_path_of_this_machine_and_no_byte_code(archive):
     with zipfile.ZipFile(archive) as packed:
         for name in packed.namelist():
             assert not name.endswith((".pyc", ".oso"))
-            text = packed.read(name).decode("utf-8")
+            content = packed.read(name)
             for folder in (ROOT, tempfile.gettempdir(), Path.home()):
-                assert f"{folder}/" not in text, name
+                assert f"{folder}/".encode() not in content, name
+            if not name.endswith(".webp"):
+                content.decode("utf-8")
 
 
 def test_a_damaged_manifest_is_refused(tmp_path):
-    sys.path.insert(0, str(ROOT / "tools"))
-    try:
-        import build_addon
-    finally:
-        sys.path.pop(0)
     folder = tmp_path / "broken"
     folder.mkdir()
     build_addon.stage(folder)

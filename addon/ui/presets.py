@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels with the presets: search, pictures, finishes, the user's own, and the source of values."""
+
+import bpy
+
+from ..core.kinds import KINDS
+from ..core.presets import PresetError, finishes, preset, presets, problems
+from ..nodes.apply import PRESET_KEY, material_node, node_kind
+from ..ops.kinds import KIND_ITEMS
+from ..ops.library import (
+    MICROBOUNCE_OT_register_library,
+    MICROBOUNCE_OT_unregister_library,
+    library_folder,
+    registered_libraries,
+)
+from ..ops.presets import (
+    MICROBOUNCE_OT_apply_finish,
+    MICROBOUNCE_OT_apply_preset,
+    MICROBOUNCE_OT_search_preset,
+    shown_material,
+)
+from ..ops.user_presets import (
+    MICROBOUNCE_OT_apply_user_preset,
+    MICROBOUNCE_OT_remove_user_preset,
+    MICROBOUNCE_OT_save_preset,
+    user_presets,
+)
+from . import previews
+
+# What the pictures show, a choice of the window manager, so that no file stores it.
+SHOWN = "microbounce_presets_shown"
+_PICTURE_SCALE = 3.6  # in units of the interface's line height
+
+
+class MICROBOUNCE_MT_finishes(bpy.types.Menu):
+    """The finishes for the material's node."""
+
+    bl_label = "Finish"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw an entry for each finish that the node's kind can have."""
+        node = material_node(shown_material(context))
+        for finish in finishes(node_kind(node) if node is not None else None):
+            entry = self.layout.operator(MICROBOUNCE_OT_apply_finish.bl_idname, text=finish.name)
+            entry.identifier = finish.identifier
+
+
+class MICROBOUNCE_MT_user_presets(bpy.types.Menu):
+    """The presets that the user saved."""
+
+    bl_label = "My Presets"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the presets by kind, each with a button that removes it, and a way to save one."""
+        layout = self.layout
+        for kind in KINDS:
+            paths = user_presets(kind)
+            if not paths:
+                continue
+            layout.label(text=KINDS[kind].label)
+            for path in paths:
+                row = layout.row(align=True)
+                name = bpy.path.display_name(path.stem, title_case=False)
+                apply = row.operator(MICROBOUNCE_OT_apply_user_preset.bl_idname, text=name)
+                apply.filepath = str(path)
+                remove = row.operator(
+                    MICROBOUNCE_OT_remove_user_preset.bl_idname, text="", icon="REMOVE"
+                )
+                remove.filepath = str(path)
+            layout.separator()
+        layout.operator(MICROBOUNCE_OT_save_preset.bl_idname, text="Save Preset", icon="ADD")
+
+
+def draw_presets(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw search, menus, the source of the node's values, and the pictures of the presets."""
+    node = material_node(shown_material(context))
+    layout.operator(MICROBOUNCE_OT_search_preset.bl_idname, text="Search Presets", icon="VIEWZOOM")
+    row = layout.row(align=True)
+    row.menu(MICROBOUNCE_MT_finishes.__name__)
+    row.menu(MICROBOUNCE_MT_user_presets.__name__)
+    if node is not None:
+        _draw_source(layout, node)
+    layout.prop(context.window_manager, SHOWN, text="Show")
+    grid = layout.grid_flow(row_major=True, even_columns=True, even_rows=True)
+    for item in presets(_shown_kind(context, node)):
+        cell = grid.column(align=True)
+        cell.template_icon(icon_value=previews.icon(item.identifier), scale=_PICTURE_SCALE)
+        button = cell.operator(MICROBOUNCE_OT_apply_preset.bl_idname, text=item.name)
+        button.identifier = item.identifier
+    for problem in problems():
+        layout.label(text=problem, icon="ERROR")
+    _draw_library(layout, context)
+
+
+def _shown_kind(context: bpy.types.Context, node: bpy.types.Node | None) -> str | None:
+    """Return the kind whose presets are shown, None for all of them."""
+    choice = getattr(context.window_manager, SHOWN)
+    if choice == "MATERIAL" and node is not None:
+        return node_kind(node)
+    return choice if choice in KINDS else None
+
+
+def _draw_source(layout: bpy.types.UILayout, node: bpy.types.Node) -> None:
+    """Name the preset that was last applied to the node, and link to where its values are from."""
+    try:
+        applied = preset(node.get(PRESET_KEY, ""))
+    except PresetError:  # none, one of the user's, or one of another version
+        return
+    row = layout.row()
+    row.label(text=f"{applied.name}: {applied.source.title}")
+    if applied.source.url:
+        row.operator("wm.url_open", text="", icon="URL").url = applied.source.url
+
+
+def _draw_library(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    if registered_libraries(context.preferences):
+        layout.operator(MICROBOUNCE_OT_unregister_library.bl_idname, text="Remove Asset Library")
+    elif library_folder() is not None:
+        layout.operator(MICROBOUNCE_OT_register_library.bl_idname, text="Add Asset Library")
+
+
+class MICROBOUNCE_PT_shader_editor_presets(bpy.types.Panel):
+    """Presets in the Shader editor."""
+
+    bl_label = "Presets"
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Microbounce"
+    bl_parent_id = "MICROBOUNCE_PT_shader_editor"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Show it where the editor is for the materials of objects."""
+        return context.space_data.shader_type == "OBJECT"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the presets."""
+        draw_presets(self.layout, context)
+
+
+class MICROBOUNCE_PT_material_presets(bpy.types.Panel):
+    """Presets in the material properties."""
+
+    bl_label = "Presets"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_parent_id = "MICROBOUNCE_PT_material"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the presets."""
+        draw_presets(self.layout, context)
+
+
+CLASSES = (
+    MICROBOUNCE_MT_finishes,
+    MICROBOUNCE_MT_user_presets,
+    MICROBOUNCE_PT_shader_editor_presets,
+    MICROBOUNCE_PT_material_presets,
+)
+
+
+def register() -> None:
+    """Add the choice of the pictures shown."""
+    choice = bpy.props.EnumProperty(
+        name="Presets Shown",
+        description="Which presets the panel shows",
+        items=[
+            ("MATERIAL", "The Material's Kind", "Those of the kind of the material's node"),
+            ("ALL", "All", "All presets"),
+            *KIND_ITEMS,
+        ],
+    )
+    setattr(bpy.types.WindowManager, SHOWN, choice)
+
+
+def unregister() -> None:
+    """Take it out, and the pictures out of memory."""
+    delattr(bpy.types.WindowManager, SHOWN)
+    previews.release()

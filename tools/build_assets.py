@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Builds the asset library, a material for each preset, into build/assets.
+
+Blender 4.5 builds it, so that both versions open it; `make assets` and `make addon` call it.
+"""
+
+import argparse
+import hashlib
+import os
+import sys
+import uuid
+from pathlib import Path
+
+from addon.core.kinds import KINDS
+from addon.core.presets import Preset, presets, problems
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDER = ROOT / "build" / "assets"
+BLEND = "microbounce.blend"
+CATALOGUE_FILE = "blender_assets.cats.txt"
+CATALOGUES = {
+    "CONDUCTOR": "Microbounce/Metals",
+    "DIELECTRIC": "Microbounce/Glasses and Liquids",
+    "DIFFUSE": "Microbounce/Matte Surfaces",
+}
+# Blender finds a catalogue by this, so it must stay the same from version to version.
+_NAMESPACE = uuid.UUID("6d1f8f0e-0b5c-5c1e-9a57-1a9c5b3f7d42")
+_SOURCES = ("addon", "osl", "tools/build_assets.py")
+
+
+def catalogue_id(kind: str) -> str:
+    """Return the UUID of a kind's catalogue."""
+    return str(uuid.uuid5(_NAMESPACE, CATALOGUES[kind]))
+
+
+def digest() -> str:
+    """Return what tells a library of these sources from that of others."""
+    found = hashlib.sha256()
+    for source in _SOURCES:
+        path = ROOT / source
+        files = sorted(path.rglob("*")) if path.is_dir() else [path]
+        for file in files:
+            if file.suffix in (".py", ".toml", ".webp", ".osl", ".h"):
+                found.update(file.relative_to(ROOT).as_posix().encode())
+                found.update(file.read_bytes())
+    return found.hexdigest()
+
+
+def is_current(folder: Path) -> bool:
+    """Return whether the library in `folder` is there and was built from today's sources."""
+    stamp = _stamp(folder)
+    files = (folder / BLEND, folder / CATALOGUE_FILE, stamp)
+    return all(file.is_file() for file in files) and stamp.read_text(encoding="utf-8") == digest()
+
+
+def build(folder: Path) -> Path:
+    """Build the library into `folder` and return the path of its .blend file.
+
+    The file that is open is lost. Raises RuntimeError where presets are damaged or a picture is
+    missing, and OSError where the folder cannot be written.
+    """
+    import bpy
+
+    if problems():
+        raise RuntimeError("\n".join(problems()))
+    _stamp(folder).unlink(missing_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    materials = {_material(preset) for preset in presets()}
+    blend = folder / BLEND
+    # This writes the materials and what they need alone: nothing of the window or this machine.
+    bpy.data.libraries.write(str(blend), materials, fake_user=True, compress=True)
+    lines = ["VERSION 1", ""]
+    for kind, path in CATALOGUES.items():
+        lines.append(f"{catalogue_id(kind)}:{path}:{path.replace('/', '-')}")
+    (folder / CATALOGUE_FILE).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    _stamp(folder).write_text(digest(), encoding="utf-8")
+    return blend
+
+
+def _stamp(folder: Path) -> Path:
+    """Return the file beside `folder` that holds the digest of its sources."""
+    return folder.with_suffix(".stamp")
+
+
+def _material(preset: Preset) -> object:
+    """Return the preset as a material that is marked as an asset."""
+    from addon.nodes.apply import preset_material
+
+    material = preset_material(preset)
+    material.asset_mark()
+    data = material.asset_data
+    data.description = f"{preset.description}. Values: {preset.source.title}, {preset.source.url}"
+    data.author = "Microbounce contributors"
+    data.license = f"GPL-3.0-or-later; the values: {preset.source.licence}"
+    data.catalog_id = catalogue_id(preset.kind)
+    for tag in (KINDS[preset.kind].label, *preset.tags):
+        data.tags.new(tag, skip_if_exists=True)
+    _set_preview(material, preset)
+    return material
+
+
+def _set_preview(material: object, preset: Preset) -> None:
+    import bpy
+    import numpy as np
+
+    from addon.ui.previews import picture_path
+
+    path = picture_path(preset.identifier)
+    if not path.is_file():
+        raise RuntimeError(f"{path} is missing: render it with `make previews`")
+    image = bpy.data.images.load(str(path))
+    try:
+        pixels = np.empty(len(image.pixels), dtype=np.float32)
+        image.pixels.foreach_get(pixels)
+        preview = material.preview_ensure()
+        preview.image_size = tuple(image.size)
+        preview.image_pixels_float.foreach_set(pixels)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Build it, unless it is there from today's sources, and return the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--output", type=Path, default=FOLDER, help="folder of the library")
+    folder = parser.parse_args(arguments).output.resolve()
+    if is_current(folder):
+        print(f"{folder / BLEND} is up to date")
+        return 0
+    import bpy
+
+    if bpy.app.version >= (5, 0, 0):
+        print(
+            f"Blender {bpy.app.version_string} would make a library that 4.5 cannot open: "
+            "use `make assets`",
+            file=sys.stderr,
+        )
+        return 1
+    try:
+        blend = build(folder)
+    except (OSError, RuntimeError) as error:
+        print(f"The asset library was not built: {error}", file=sys.stderr)
+        return 1
+    print(f"{blend}: {len(presets())} materials, {blend.stat().st_size / 1024:.0f} KiB")
+    return 0
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)  # bpy 4.5 was seen to hang while it takes itself down
