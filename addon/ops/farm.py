@@ -59,7 +59,7 @@ class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
                 return {"CANCELLED"}
         _last[context.scene.session_uid] = by_level(findings)
         if worst(findings) in ("error", "warning"):
-            text = message("For a farm, {counts} were found", counts=counts(findings))
+            text = message("Found by the check for a farm: {counts}", counts=counts(findings))
             self.report({"WARNING"}, text)
         elif self.prove:
             self.report({"INFO"}, message("The file renders the same without the extension"))
