@@ -8,8 +8,23 @@ from collections.abc import Callable
 
 import bpy
 
-from .ops import library, material, node, osl, presets, user_presets
-from .ui import menus, panels
+from . import command
+from .ops import (
+    check,
+    convert,
+    farm,
+    library,
+    material,
+    node,
+    osl,
+    presets,
+    update,
+    user_presets,
+)
+from .ui import check as check_panels
+from .ui import convert as convert_panel
+from .ui import farm as farm_panels
+from .ui import handlers, menus, panels, preferences
 from .ui import presets as preset_panels
 
 _MODULES = (
@@ -19,9 +34,19 @@ _MODULES = (
     presets,
     user_presets,
     library,
+    convert,
+    update,
+    check,
+    farm,
+    preferences,
     menus,
     panels,
     preset_panels,
+    command,
+    check_panels,
+    convert_panel,
+    farm_panels,
+    handlers,
 )
 
 # What undoes the registration, in the order in which it was done.
