@@ -17,10 +17,10 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 .NOTPARALLEL:
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 lint format addon assets previews references figures tables scenes clean
+.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 test-window window-pictures lint format addon assets previews references figures tables scenes clean
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' Makefile
 
 demo: ## Render the showcase scene with Single, Cycles Multiscatter and Microbounce; compare
 	@$(any) -m scenes.demo
@@ -39,6 +39,12 @@ test-5.2: ## Run every test on Blender 5.2
 
 test-4.5: ## Run every test on Blender 4.5
 	@$(on_4.5) $(pytest)
+
+test-window: ## Use the zip in the window of a real Blender: BLENDER=command, or blender on PATH
+	@$(any) -m tools.window test
+
+window-pictures: ## The same, and renew the pictures of the panels in docs/
+	@$(any) -m tools.window pictures
 
 lint: ## Check the code's form: ruff, and the rules for the OSL sources
 	@$(any) -m ruff check . && "$$python" -m ruff format --check . && "$$python" tools/check_osl.py

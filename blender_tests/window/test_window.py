@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The zip in a real Blender's window: installed, drawn, used, rendered with EEVEE, taken out."""
+
+import numpy as np
+import pytest
+
+from tools.window.session import run_session
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """What one session left; it takes about 25 seconds."""
+    return run_session(tmp_path_factory.mktemp("session"))
+
+
+def test_it_comes_to_its_end_without_an_error(session):
+    assert session["errors"] == []
+    assert session["done"]
+    assert "Traceback" not in session["printed"]
+    assert "Error:" not in session["printed"]
+
+
+def test_it_is_installed_and_taken_out(session):
+    assert session["installed"] == ["bl_ext.user_default.microbounce"]
+    assert session["left"] == []
+
+
+def test_every_panel_is_drawn(session):
+    assert {"MICROBOUNCE_PT_material", "MICROBOUNCE_PT_shader_editor"} <= set(session["panels"])
+    assert sorted(session["drawn"]) == session["panels"]
+
+
+def test_the_buttons_work(session):
+    ran = dict(session["ran"])
+    assert {"add_material", "check_render"} <= set(ran)
+    assert all(done == ["FINISHED"] for done in ran.values()), ran
+    assert session["node"] == ["Material Output", "Microbounce Conductor"]
+
+
+def test_eevee_shows_the_material_like_cycles_without_osl(session):
+    eevee, cycles = (np.array(session["centres"][name]) for name in ("EEVEE", "CYCLES"))
+    assert (cycles > 0.05).all(), "black"
+    # They light a rough metal in different ways; within a per cent was measured.
+    assert np.abs(eevee / cycles - 1.0).max() < 0.1

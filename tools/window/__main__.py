@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tries the extension in a real Blender's window: `test` runs the tests, `pictures` renews docs/.
+
+Where no such Blender can be opened it says why, and ends with exit code 0.
+"""
+
+import argparse
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from .blender import NoWindowError, find_blender, need_display
+from .session import ROOT, run_session
+
+# The pictures in docs/, by the editors that they show.
+_PICTURES = {"PROPERTIES": "panel.jpg", "ShaderNodeTree": "shader_editor.jpg"}
+
+
+def main() -> int:
+    """Do what the command line says and return the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("task", choices=("test", "pictures"))
+    task = parser.parse_args().task
+    try:
+        blender = find_blender()
+        need_display()
+    except NoWindowError as reason:
+        print(f"skipped: {reason}")
+        return 0
+    return _test(blender) if task == "test" else _pictures()
+
+
+def _test(blender: list[str]) -> int:
+    command = [sys.executable, "-m", "pytest", "blender_tests/window"]
+    environment = os.environ | {"BLENDER": shlex.join(blender)}
+    return subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode
+
+
+def _pictures() -> int:
+    from .pictures import save_part
+
+    with TemporaryDirectory(prefix="microbounce_window_") as name:
+        folder = Path(name)
+        result = run_session(folder)
+        screen = folder / "screen.xwd"
+        if not (result.get("done") and screen.is_file()):
+            reasons = result["errors"] or ["there is no Xvfb to take pictures of: install it"]
+            print("No picture was taken:", *reasons, file=sys.stderr)
+            return 1
+        for editor, picture in _PICTURES.items():
+            target = ROOT / "docs" / picture
+            save_part(screen, result["areas"][editor], target)
+            print(f"{target.relative_to(ROOT)}: {target.stat().st_size / 1024:.0f} KiB")
+    return 0
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)  # bpy 4.5 was seen to hang at exit

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One session in Blender's window with the zip that the repository makes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from .blender import run_in_window
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# Seconds. A session takes about 20 without a graphics card.
+_BUILD, _SESSION = 300.0, 180.0
+
+
+def run_session(folder: Path) -> dict[str, object]:
+    """Build the zip, use it in a window, and return what `inside.py` wrote down.
+
+    Pictures come to lie in `folder`. Raises what run_in_window() raises, and
+    subprocess.CalledProcessError where the zip cannot be built.
+    """
+    builder = [sys.executable, str(ROOT / "tools" / "build_addon.py")]
+    places = ["--output", str(folder / "dist"), "--work", str(folder / "build")]
+    subprocess.run([*builder, *places], check=True, timeout=_BUILD, stdout=subprocess.DEVNULL)
+    (archive,) = (folder / "dist").glob("*.zip")
+    settings = {"archive": str(archive), "folder": str(folder), "seconds": 0.9 * _SESSION}
+    return run_in_window(Path(__file__).with_name("inside.py"), settings, _SESSION)
