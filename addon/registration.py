@@ -9,15 +9,18 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import material, node, osl
+from .ops import analyse, material, node, osl
+from .ui import analyse as analyse_ui
 from .ui import menus, panels
 
 _MODULES = (
     osl,
     material,
     node,
+    analyse,
     menus,
     panels,
+    analyse_ui,
     command,
 )
 

@@ -10,10 +10,10 @@ import argparse
 import sys
 
 from ..core import VERSION
-from . import check
+from . import analyse, apply, check
 from .output import CommandError, emit_error, reserved_output
 
-SUBCOMMANDS = (check,)
+SUBCOMMANDS = (check, analyse, apply)
 
 PROGRAM = "blender FILE --command microbounce"
 
