@@ -9,19 +9,32 @@ from collections.abc import Callable
 import bpy
 
 from . import command
-from .ops import analyse, material, node, osl
-from .ui import analyse as analyse_ui
-from .ui import menus, panels
+from .ops import analyse, check, convert, farm, material, node, osl, presets, update
+from .ui import analyse as analysis_panels
+from .ui import check as check_panels
+from .ui import convert as convert_panel
+from .ui import farm as farm_panels
+from .ui import handlers, menus, panels, preferences
 
 _MODULES = (
     osl,
     material,
     node,
+    presets,
+    convert,
+    update,
+    check,
+    farm,
+    preferences,
     analyse,
     menus,
     panels,
-    analyse_ui,
     command,
+    check_panels,
+    convert_panel,
+    farm_panels,
+    analysis_panels,
+    handlers,
 )
 
 # What undoes the registration, in the order in which it was done.

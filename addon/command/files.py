@@ -27,6 +27,13 @@ def add_save_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_dry_run_argument(parser: argparse.ArgumentParser) -> None:
+    """Add `--dry-run`, which goes with none of the arguments that save."""
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say what would be done, change nothing"
+    )
+
+
 def open_file(arguments: argparse.Namespace) -> Path:
     """Open the file of `--file`, or take the one that is open, and return its path.
 
@@ -52,6 +59,8 @@ def open_file(arguments: argparse.Namespace) -> Path:
 def check_target(arguments: argparse.Namespace) -> None:
     """Raise CommandError where the file could not be saved as asked; call it before the work."""
     target = arguments.save_as
+    if getattr(arguments, "dry_run", False) and (target is not None or arguments.save):
+        raise CommandError("A dry run saves nothing: leave out --dry-run, or what saves")
     if target is None:
         return
     target = Path(os.path.abspath(target))
@@ -73,10 +82,26 @@ def save_file(arguments: argparse.Namespace) -> str:
     check_target(arguments)
     target = os.path.abspath(arguments.save_as or bpy.data.filepath)
     try:
-        bpy.ops.wm.save_as_mainfile(filepath=target, check_existing=False)
+        # Blender 4.5 would forget, in background, that the file was compressed.
+        bpy.ops.wm.save_as_mainfile(
+            filepath=target, check_existing=False, compress=_is_compressed(bpy.data.filepath)
+        )
     except RuntimeError as error:
         reason = str(error).strip().removeprefix("Error: ")
         raise CommandError(
             f"{target} cannot be written: {reason}. Choose another folder"
         ) from error
     return target
+
+
+def _is_compressed(path: str) -> bool:
+    try:
+        with open(path, "rb") as file:
+            return file.read(7) != b"BLENDER"
+    except OSError:  # it was moved away meanwhile
+        return False
+
+
+def saved(target: str) -> str:
+    """Return the line for people that says what save_file() did."""
+    return f"Saved {target}" if target else "Nothing was saved: add --save or --save-as FILE"

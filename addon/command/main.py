@@ -8,18 +8,20 @@ result to `output.emit` and raises CommandError for what the user has to put rig
 
 import argparse
 import sys
+import traceback
 
 from ..core import VERSION
-from . import analyse, apply, check
+from . import analyse, apply, check, convert, preset, presets, update
 from .output import CommandError, emit_error, reserved_output
 
-SUBCOMMANDS = (check, analyse, apply)
+SUBCOMMANDS = (check, analyse, apply, presets, preset, convert, update)
 
 PROGRAM = "blender FILE --command microbounce"
 
 _EPILOG = """\
-FILE may be left out and given after the subcommand as --file FILE. Nothing is saved unless --save
-or --save-as says so.
+FILE may be left out and given after the subcommand as --file FILE. --command runs without a window
+by itself; -b in front would print Blender's version above the output. Nothing is saved unless
+--save or --save-as says so.
 
 exit codes: 0 all is well, 1 something was found, 2 wrong use or an error
 """
@@ -69,4 +71,8 @@ def main(argv: list[str]) -> int:
         except CommandError as error:
             print(f"Error: {error}", file=sys.stderr)
             emit_error(arguments, str(error))
+            return 2
+        except Exception as error:  # noqa: BLE001 - Blender would leave with 1, "found something"
+            traceback.print_exc()
+            emit_error(arguments, f"{type(error).__name__}: {error}")
             return 2

@@ -89,10 +89,15 @@ def fill_script_node(
         node.mode = "INTERNAL"
         _assign_text(node, text)
     _ensure_sockets(node, parameters)
+    set_bytecode(node, bytecode)
+    return text
+
+
+def set_bytecode(node: bpy.types.Node, bytecode: str) -> None:
+    """Give a script node its bytecode, "" to take it away."""
     node.bytecode = bytecode
     # Any string that changes with the bytecode will do: Cycles keeps shaders by it.
     node.bytecode_hash = hashlib.sha256(bytecode.encode()).hexdigest()[:32] if bytecode else ""
-    return text
 
 
 def _assign_text(node: bpy.types.Node, text: bpy.types.Text) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..ui.text import message
 
 # What does the work is imported when it is called: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
@@ -70,8 +71,12 @@ class MICROBOUNCE_OT_analyse(bpy.types.Operator):
         count = len(report.changes)
         self.report(
             {"INFO"},
-            f"{count} of {len(report.rows)} materials could change; the picture would be "
-            f"{percent(report.error_then)} off",
+            message(
+                "{count} of {all} materials could change; the picture would be {error} off",
+                count=count,
+                all=len(report.rows),
+                error=percent(report.error_then),
+            ),
         )
         return {"FINISHED"}
 
@@ -110,10 +115,14 @@ class MICROBOUNCE_OT_apply_analysis(bpy.types.Operator):
         if left:
             self.report(
                 {"WARNING"},
-                f"{len(done)} set; left as they have changed since: {', '.join(left)}",
+                message(
+                    "{count} set; left as they have changed since: {names}",
+                    count=len(done),
+                    names=", ".join(left),
+                ),
             )
         else:
-            self.report({"INFO"}, f"{len(done)} materials set")
+            self.report({"INFO"}, message("{count} materials set", count=len(done)))
         return {"FINISHED"}
 
 

@@ -5,6 +5,7 @@ import bpy
 
 from ..core.kinds import KINDS
 from ..nodes.group import GROUP_ERRORS, new_material
+from ..ui.preferences import preferences
 from .kinds import KIND_ITEMS
 from .osl import osl_status
 
@@ -73,7 +74,8 @@ class MICROBOUNCE_OT_add_material(bpy.types.Operator):
         """Make the material, assign it, and warn where its shader will not run."""
         obj = context.object
         try:
-            material = new_material(self.kind, KINDS[self.kind].name)
+            quality = preferences(context).quality
+            material = new_material(self.kind, KINDS[self.kind].name, Quality=quality)
         except GROUP_ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -5,6 +5,7 @@ import bpy
 
 from ..core.kinds import KINDS
 from ..nodes.group import GROUP_ERRORS, add_group_node, material_group
+from ..ui.preferences import preferences
 from .kinds import KIND_ITEMS
 from .osl import osl_status
 
@@ -76,6 +77,9 @@ class MICROBOUNCE_OT_add_node(bpy.types.Operator):
         for other in tree.nodes:
             other.select = False
         node = add_group_node(tree, group)
+        quality = KINDS[self.kind].by_identifier["Quality"]
+        value = quality.checked(preferences(context).quality)
+        node.inputs[quality.label].default_value = value
         node.location = space.cursor_location
         node.select = True
         tree.nodes.active = node

@@ -3,32 +3,14 @@
 
 import bpy
 
-from ..core.osl_state import Status, osl_state
-from ..nodes.script import osl_compiler_available
+from ..core.osl_state import Status
+from ..nodes.scene_status import scene_status
 from .exact import missed_lights
 
 
 def osl_status(context: bpy.types.Context) -> Status:
     """Return whether the shaders run in the context's scene, else why not and what to do."""
-    scene = context.scene
-    cycles = getattr(scene, "cycles", None)  # absent where the Cycles add-on is disabled
-    return osl_state(
-        built_with_osl=osl_compiler_available(),
-        engine=scene.render.engine,
-        shading_system=bool(cycles and cycles.shading_system),
-        device=_render_device(context),
-    )
-
-
-def _render_device(context: bpy.types.Context) -> str:
-    """Return "CPU", or the GPU type where the scene asks for GPUs and the preferences have one."""
-    cycles = getattr(context.scene, "cycles", None)
-    addon = context.preferences.addons.get("cycles")
-    if cycles is None or addon is None or cycles.device == "CPU":
-        return "CPU"
-    preferences = addon.preferences
-    # Like Cycles, which takes the CPU where no GPU is chosen.
-    return preferences.compute_device_type if preferences.has_active_device() else "CPU"
+    return scene_status(context.scene, context.preferences)
 
 
 class MICROBOUNCE_OT_enable_osl(bpy.types.Operator):

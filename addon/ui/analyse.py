@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel Analysis in the render properties and in the Shader editor's sidebar."""
+"""The panels of the analysis."""
 
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,8 @@ from ..ops.analyse import (
     MICROBOUNCE_OT_apply_analysis,
     last_report,
 )
+from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+from .text import label
 
 if TYPE_CHECKING:
     from ..nodes.analyse import Report, Row
@@ -44,55 +46,61 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
     for row in rows[:_MOST_ROWS]:
         _draw_row(layout.box().column(align=True), row)
     if len(rows) > _MOST_ROWS:
-        layout.label(text=f"{len(rows) - _MOST_ROWS} more")
+        layout.label(text=label("{count} more", count=len(rows) - _MOST_ROWS))
     column = layout.column(align=True)
     column.label(
-        text=f"Picture: {percent(report.error_now)} off, then {percent(report.error_then)}"
+        text=label(
+            "Picture: {now} off, then {then}",
+            now=percent(report.error_now),
+            then=percent(report.error_then),
+        )
     )
-    column.label(text=f"Time of a sample: {report.time_ratio:.2f} times today's")
+    column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
 
 
 def _draw_row(column: bpy.types.UILayout, row: "Row") -> None:
     one = row.proposal
     head = column.split(factor=0.5)
     head.label(text=row.name, icon="MATERIAL")
-    head.label(text=f"{percent(one.share)} of the picture")
+    head.label(text=label("{share} of the picture", share=percent(one.share)))
+    now, error = one.now, percent(one.error_now)
     if one.changes:
-        column.label(text=f"{one.now} to {one.then}", icon="FORWARD")
-        column.label(text=f"Off by {percent(one.error_now)}, then {percent(one.error_then)}")
+        then = percent(one.error_then)
+        column.label(text=label("{now} to {then}", now=now, then=one.then), icon="FORWARD")
+        column.label(text=label("Off by {now}, then {then}", now=error, then=then))
     else:
-        column.label(text=f"{one.now}: off by {percent(one.error_now)}", icon="CHECKMARK")
+        column.label(text=label("{now}: off by {error}", now=now, error=error), icon="CHECKMARK")
     for text in (one.reason, *row.notes):
         column.label(text=text[:1].upper() + text[1:], icon="BLANK1")
 
 
-class MICROBOUNCE_PT_analysis_render(bpy.types.Panel):
-    """Analysis in the render properties."""
+class _AnalysisPanel:
+    """The last analysis of the scene, with its buttons."""
 
-    bl_label = "Microbounce Analysis"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "render"
+    bl_label = "Analysis"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the table."""
+        """Draw the buttons and the table."""
         draw_analysis(self.layout, context)
 
 
-class MICROBOUNCE_PT_analysis_shader_editor(bpy.types.Panel):
-    """Analysis in the Shader editor."""
+class MICROBOUNCE_PT_analysis_shader_editor(_AnalysisPanel, bpy.types.Panel):
+    """The analysis in the Shader editor."""
 
-    bl_label = "Analysis"
     bl_space_type = "NODE_EDITOR"
     bl_region_type = "UI"
     bl_category = "Microbounce"
-    bl_parent_id = "MICROBOUNCE_PT_shader_editor"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the table."""
-        draw_analysis(self.layout, context)
+    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
 
 
-CLASSES = (MICROBOUNCE_PT_analysis_render, MICROBOUNCE_PT_analysis_shader_editor)
+class MICROBOUNCE_PT_analysis_material(_AnalysisPanel, bpy.types.Panel):
+    """The analysis in the material properties."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_parent_id = MICROBOUNCE_PT_material.__name__
+
+
+CLASSES = (MICROBOUNCE_PT_analysis_shader_editor, MICROBOUNCE_PT_analysis_material)

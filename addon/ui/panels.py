@@ -11,6 +11,7 @@ from ..ops.exact import missed_lights
 from ..ops.material import MICROBOUNCE_OT_add_material
 from ..ops.node import MICROBOUNCE_OT_add_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
+from .text import label, message
 
 # Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
 _CHARACTER_WIDTH = 8
@@ -23,26 +24,29 @@ def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """
     status = osl_status(context)
     if not status.ok:
-        _draw_text(layout, context, status.message, "INFO")
+        draw_text(layout, context, f"{message(status.reason)} {message(status.remedy)}")
         if status.can_enable:
             layout.operator(MICROBOUNCE_OT_enable_osl.bl_idname)
         return
     layout.label(text="Open Shading Language is on", icon="CHECKMARK")
     warning = missed_lights(context)
     if warning:
-        _draw_text(layout, context, warning, "ERROR")
+        draw_text(layout, context, warning, "ERROR")
 
 
 def draw_buttons(layout: bpy.types.UILayout, operator: str) -> None:
     """Draw a button for each kind of material; `operator` is what adds it."""
     column = layout.column(align=True)
     for identifier, kind in KINDS.items():
-        column.operator(operator, text=f"Add {kind.name}", icon="ADD").kind = identifier
+        column.operator(
+            operator, text=label("Add {name}", name=kind.name), icon="ADD"
+        ).kind = identifier
 
 
-def _draw_text(
-    layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str
+def draw_text(
+    layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "INFO"
 ) -> None:
+    """Draw `text`, already translated, in a box, wrapped to the region's width."""
     column = layout.box().column(align=True)
     scale = context.preferences.system.ui_scale
     width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
@@ -67,7 +71,7 @@ class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
         """Draw what is to know before rendering, and buttons for new nodes."""
         draw_state(self.layout, context)
         draw_buttons(self.layout, MICROBOUNCE_OT_add_node.bl_idname)
-        self.layout.label(text=f"Version {VERSION}")
+        self.layout.label(text=label("Version {number}", number=VERSION))
 
 
 class MICROBOUNCE_PT_material(bpy.types.Panel):

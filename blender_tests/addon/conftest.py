@@ -29,3 +29,25 @@ def registered(empty_file):
     addon.register()
     yield empty_file
     addon.unregister()
+
+
+@pytest.fixture
+def command(registered, capfd):
+    """Runs the command; returns its exit code, standard output and standard error."""
+    from addon.command.main import main
+
+    def run(*argv):
+        capfd.readouterr()
+        code = main([str(word) for word in argv])
+        return code, *capfd.readouterr()
+
+    return run
+
+
+@pytest.fixture
+def osl_scene(registered):
+    """A scene of Cycles with OSL, a sphere and a light; the extension is registered."""
+    from blender_tests.addon.support import small_scene
+
+    scene, _ = small_scene(osl=True)
+    return scene

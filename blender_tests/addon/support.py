@@ -136,3 +136,17 @@ def native_material(kind: str, **values: object) -> bpy.types.Material:
         node.inputs[socket].default_value = value
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     return material
+
+
+def sphere() -> bpy.types.Object:
+    """Return the sphere of `small_scene`, looked up anew."""
+    return bpy.data.objects["Sphere"]
+
+
+def give_material(kind: str = "CONDUCTOR", **values: object) -> bpy.types.Material:
+    """Give the sphere a new material of ours with these parameters; return it."""
+    from addon.nodes.group import new_material
+
+    material = new_material(kind, "Ours", **values)
+    sphere().data.materials.append(material)
+    return material

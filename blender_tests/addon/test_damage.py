@@ -124,7 +124,7 @@ def test_linked_group_is_not_reused(group_module, kind, empty_file, tmp_path):
 
 
 def test_linked_material_whose_library_is_gone(registered, group_module, kind, tmp_path):
-    from addon.ops.exact import uses_exact
+    from addon.nodes.exact import uses_exact
 
     bpy = registered
     libraries(bpy, group_module, kind, tmp_path, "A")

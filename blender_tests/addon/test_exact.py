@@ -61,7 +61,7 @@ def add_light(bpy, name, kind, size=0.0, **values):
 
 def missed(bpy):
     """Names of the lights that Exact misses in the current view layer."""
-    from addon.ops.exact import enabled_lamps
+    from addon.nodes.exact import enabled_lamps
 
     return {lamp.name for lamp in enabled_lamps(bpy.context.view_layer) if lamp.obstacle}
 
@@ -124,7 +124,7 @@ def exact(empty_file, kind):
 
 
 def test_exact_is_found_on_the_node(exact):
-    from addon.ops.exact import uses_exact
+    from addon.nodes.exact import uses_exact
 
     material, node = exact
     assert uses_exact(material.node_tree)
@@ -136,8 +136,8 @@ def test_exact_is_found_on_the_node(exact):
 
 
 def test_exact_is_found_within_a_users_group_but_not_behind_a_link(exact, empty_file):
+    from addon.nodes.exact import uses_exact
     from addon.nodes.group import add_group_node
-    from addon.ops.exact import uses_exact
 
     _, node = exact
     outer = empty_file.data.node_groups.new("Mine", "ShaderNodeTree")

@@ -25,8 +25,8 @@ class OurScene:
 
 @pytest.fixture
 def scene(registered):
-    """A clean scene with our metal."""
-    return OurScene(registered, "CONDUCTOR")
+    """A clean scene with our matte material."""
+    return OurScene(registered, "DIFFUSE")
 
 
 def findings(scene):
@@ -57,8 +57,9 @@ def test_files_without_our_materials_have_none(registered):
 @pytest.mark.parametrize(
     ("lost", "level", "words"),
     [
-        ("bytecode", "error", "has no bytecode"),
-        ("bytecode_hash", "error", "has no bytecode"),
+        ("bytecode", "error", "but not the hash"),
+        ("both", "error", "has no bytecode"),
+        ("bytecode_hash", "error", "hash of its bytecode is gone"),
         ("text", "warning", "source is gone"),
         ("script", "error", "script node is gone"),
     ],
@@ -69,9 +70,10 @@ def test_what_was_taken_out_of_a_group_is_missed(scene, lost, level, words):
     elif lost == "script":
         scene.group.nodes.remove(scene.script)
     else:
-        setattr(scene.script, lost, "")
+        for name in ("bytecode", "bytecode_hash") if lost == "both" else (lost,):
+            setattr(scene.script, name, "")
     found = the_finding(scene.scene)
-    assert found[:2] == (level, "Node group 'Microbounce Conductor'")
+    assert found[:2] == (level, "Node group 'Microbounce Diffuse'")
     assert words in found[2]
 
 
@@ -114,7 +116,7 @@ def test_an_edited_source(registered, kind, old, new, words):
 def test_the_bytecode_of_another_shader_is_noticed_with_and_without_the_text(scene):
     from addon.nodes.group import material_group, script_node
 
-    other = script_node(material_group("DIFFUSE"))
+    other = script_node(material_group("DIELECTRIC"))
     scene.script.bytecode = other.bytecode
     assert "not what its source gives" in the_finding(scene.scene)[2]
     scene.bpy.data.texts.remove(scene.script.script)
@@ -139,16 +141,46 @@ def test_a_blender_without_osl_says_that_it_did_not_compare(scene, monkeypatch):
 
 
 def test_a_group_of_another_version_is_a_note(scene):
-    from addon.nodes.group import KIND_KEY, STAMP_KEY
+    from addon.nodes.group import KIND_KEY, STAMP_KEY, VERSION_KEY
 
     scene.group[STAMP_KEY] = "0123456789abcdef"
     assert the_finding(scene.scene)[0] == "note"
     del scene.group[STAMP_KEY]
     assert the_finding(scene.scene)[0] == "note"
+    assert "Update Materials" in findings(scene.scene)[0].remedy
+    scene.group[VERSION_KEY] = "99.0.0"
+    assert "newer version" in findings(scene.scene)[0].remedy
     scene.group[KIND_KEY] = "VELVET"
     level, _, message = the_finding(scene.scene)
     assert level == "warning"
     assert "'VELVET'" in message
+
+
+def test_what_is_broken_in_an_old_group_is_mended_by_the_update(scene):
+    from addon.nodes.group import STAMP_KEY
+    from addon.nodes.update import update_materials
+
+    scene.group[STAMP_KEY] = "0123456789abcdef"
+    scene.script.bytecode = scene.script.bytecode_hash = ""
+    found = findings(scene.scene)
+    assert [finding.level for finding in found] == ["error", "note"]
+    assert all("Update Materials" in finding.remedy for finding in found)
+    update_materials()
+    assert findings(scene.scene) == []
+
+
+@pytest.mark.parametrize("lost", ["bytecode", "text"])
+def test_adding_a_material_once_more_is_a_remedy(scene, lost):
+    from addon.nodes.group import material_group
+
+    if lost == "text":
+        scene.bpy.data.texts.remove(scene.script.script)
+    else:
+        scene.script.bytecode = ""
+    (found,) = findings(scene.scene)
+    assert "once more" in found.remedy
+    material_group("DIFFUSE")
+    assert findings(scene.scene) == []
 
 
 def test_a_damaged_installation_is_told(scene, monkeypatch, tmp_path):
@@ -185,7 +217,7 @@ def test_an_unused_material_gives_notes_at_most(scene):
     scene.material.use_fake_user = True
     level, _, message = the_finding(scene.scene)
     assert level == "note"
-    assert "has no bytecode" in message
+    assert "bytecode was taken out" in message
 
 
 def test_groups_within_a_users_own_groups_count_once(scene):
@@ -200,7 +232,7 @@ def test_groups_within_a_users_own_groups_count_once(scene):
     scene.sphere.data.materials[0] = material
     bpy.data.materials.remove(scene.material)
     scene.script.bytecode = ""
-    assert "has no bytecode" in the_finding(scene.scene)[2]
+    assert "bytecode was taken out" in the_finding(scene.scene)[2]
 
 
 def add_image(scene, image):
@@ -232,6 +264,19 @@ def test_images_that_are_not_in_the_file(scene, tmp_path):
     assert findings(scene.scene) == []
 
 
+def test_tiled_images(scene, tmp_path):
+    image = scene.bpy.data.images.new("Tiles", 2, 2)
+    image.filepath_raw = str(tmp_path / "tiles.1001.png")
+    image.file_format = "PNG"
+    image.save()
+    image.source = "TILED"
+    image.filepath = str(tmp_path / "tiles.<UDIM>.png")
+    add_image(scene, image)
+    assert "outside this one" in the_finding(scene.scene)[2]
+    (tmp_path / "tiles.1001.png").unlink()
+    assert "tiles.<UDIM>.png is missing" in the_finding(scene.scene)[2]
+
+
 def drive(socket, expression):
     driver = socket.driver_add("default_value").driver
     driver.type = "SCRIPTED"
@@ -239,7 +284,7 @@ def drive(socket, expression):
 
 
 def test_drivers_that_are_python(scene):
-    node = scene.material.node_tree.nodes["Microbounce Conductor"]
+    node = scene.material.node_tree.nodes["Microbounce Diffuse"]
     drive(node.inputs["Roughness"], "sin(frame) * 0.5")
     assert findings(scene.scene) == [], "a simple expression needs no Python"
     drive(node.inputs["Anisotropy"], "len(bpy.data.objects)")
@@ -282,7 +327,7 @@ def test_libraries(scene, tmp_path, what):
     user, library = linked(scene, tmp_path, relative=True, what=what)
     level, subject, message = the_finding(user)
     assert (level, subject) == ("note", "Library '//library.blend'")
-    assert "'Microbounce Conductor'" in message
+    assert "'Microbounce Diffuse'" in message
     library.unlink()
     scene.bpy.ops.wm.open_mainfile(filepath=scene.bpy.data.filepath)
     found = findings(scene.bpy.context.scene)

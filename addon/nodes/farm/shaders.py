@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks that a node group carries its shader: source and bytecode, and the one is of the other."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import bpy
@@ -9,15 +10,19 @@ from ...core.finding import Finding
 from ...core.kinds import KINDS
 from ...core.oso import same_program
 from ...core.shader_source import ShaderSourceError, inlined_source
-from ..group import KIND_KEY, STAMP_KEY, _stamp, script_node
+from ..group import KIND_KEY, script_node
 from ..script import OslUnavailableError, ShaderCompileError, compile_source
+from ..update import _is_newer, _is_ours_of_another_version
 
 # A file has few sources; a check of several files in a row meets the same ones again.
 _compiled = lru_cache(maxsize=8)(compile_source)
 
-_UPDATE = "Update the material."
+_UPDATE = "Use Update Materials to give it today's shader."
+_UPGRADE = "Install that newer version to change it."
 _COMPILE = "Press the update button of the script node in the group."
 _COMPLETE = "Add a Microbounce material of this kind once more, which completes the group."
+_REPLACE = "Add a material of the same kind, and use its node group instead."
+_IN_LIBRARY = "Open the library file, check that, mend it there and save it."
 
 
 def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
@@ -38,11 +43,15 @@ def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
     except ShaderSourceError as error:
         message = "The extension's own shader cannot be read, so it was not compared."
         return [Finding("warning", subject, message, f"{error}.")]
-    current = group.get(STAMP_KEY) == _stamp(kind, source)
-    found = _script_findings(group, subject, source if current else "")
-    if not current:
+    other = _is_ours_of_another_version(group)
+    found = _script_findings(group, subject, "" if other else source)
+    change = _UPGRADE if _is_newer(group) else _UPDATE
+    elsewhere = _IN_LIBRARY if group.library else change if other else ""
+    if elsewhere:
+        found = [f if f.level == "note" else replace(f, remedy=elsewhere) for f in found]
+    if other:
         message = "Another version of the extension made it; it renders as that version did."
-        found.append(Finding("note", subject, message, _UPDATE))
+        found.append(Finding("note", subject, message, elsewhere))
     return found
 
 
@@ -53,14 +62,19 @@ def _script_findings(
     script = script_node(group)
     if script is None:
         message = "Its script node is gone; Cycles' own material shows."
-        return [Finding("error", subject, message, "Replace it by a new one.")]
+        return [Finding("error", subject, message, _REPLACE)]
     if script.mode == "EXTERNAL":
         message = f"Its shader is the file {script.filepath!r}, which a farm does not have."
         return [Finding("error", subject, message, "Set the script node to Internal.")]
-    # Cycles takes the bytecode only where there is a hash beside it.
-    if not (script.bytecode and script.bytecode_hash):
+    if not script.bytecode and script.bytecode_hash:
+        message = "Its bytecode was taken out, but not the hash: Blender 5.2 stops on that."
+        return [Finding("error", subject, message, _COMPLETE)]
+    if not script.bytecode:
         message = "Its shader has no bytecode; Cycles' own material shows."
         return [Finding("error", subject, message, _COMPLETE)]
+    if not script.bytecode_hash:  # Cycles goes by it
+        message = "The hash of its bytecode is gone; Cycles' own material shows."
+        return [Finding("error", subject, message, _COMPILE)]
     found = []
     text = script.script
     if text is None:

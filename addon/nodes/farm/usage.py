@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..find import surface_tree
 from ..group import KIND_KEY
 
 
@@ -46,7 +47,8 @@ def material_uses() -> Iterator[Use]:
 
 def _use(material: bpy.types.Material) -> Use:
     trees, groups, lost = [], [], []
-    waiting = [material.node_tree] if _has_nodes(material) else []
+    tree = surface_tree(material)
+    waiting = [] if tree is None else [tree]
     seen = set(waiting)
     while waiting:
         tree = waiting.pop(0)
@@ -63,10 +65,3 @@ def _use(material: bpy.types.Material) -> Use:
             else:
                 waiting.append(group)
     return Use(material, tuple(trees), tuple(groups), tuple(lost))
-
-
-def _has_nodes(material: bpy.types.Material) -> bool:
-    if material.node_tree is None:
-        return False
-    # Later nodes are always on, and the property is deprecated.
-    return bpy.app.version >= (5, 0, 0) or material.use_nodes

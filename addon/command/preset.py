@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The subcommand `preset`, which gives a material the values of a preset."""
+
+import argparse
+
+from ..core.presets import finishes, presets
+from ..nodes.apply import ApplyError, apply_preset
+from ..nodes.group import GROUP_ERRORS
+from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file, saved
+from .names import named_item, named_material
+from .output import CommandError, emit
+
+NAME = "preset"
+HELP = "Give a material the values of a preset."
+EXAMPLES = (
+    "gold --material Ring --save-as new.blend",
+    "conductor/gold --material Ring --finish brushed --save",
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of this subcommand."""
+    parser.add_argument("name", metavar="NAME", help="the preset, such as gold or conductor/gold")
+    parser.add_argument("--material", required=True, help="the material that gets the values")
+    parser.add_argument("--finish", help="a finish on top, such as brushed")
+    add_file_argument(parser)
+    add_save_arguments(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Apply, save where that was asked, and print what was done."""
+    chosen = named_item(arguments.name, presets(), "preset")
+    finish = arguments.finish and named_item(arguments.finish, finishes(), "finish")
+    check_target(arguments)
+    path = open_file(arguments)
+    material = named_material(arguments.material)
+    try:
+        left = apply_preset(material, chosen, finish)
+    except (ApplyError, *GROUP_ERRORS) as error:
+        raise CommandError(str(error)) from error
+    target = save_file(arguments)
+    data = {
+        "file": str(path),
+        "material": material.name,
+        "preset": chosen.identifier,
+        "finish": finish.identifier if finish else None,
+        "left": left,
+        "saved": target,
+    }
+    name = f"{chosen.name}, {finish.name}" if finish else chosen.name
+    lines = [f"{material.name}: {name}"]
+    if left:
+        lines.append(f"Left as they were, since they are linked: {', '.join(left)}")
+    emit(arguments, data, "\n".join([*lines, saved(target)]))
+    return 0

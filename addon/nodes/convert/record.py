@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a converted node keeps of the one it was made from, so that the way back loses nothing."""
+
+import json
+from dataclasses import asdict, dataclass
+
+import bpy
+
+from .state import State
+from .translation import Translation
+
+RECORD_KEY = "microbounce_converted_from"
+
+
+@dataclass
+class Link:
+    """A link into an input that the converted node does not have.
+
+    socket -- the input's name
+    node   -- the name of the node that it comes from
+    output -- the identifier of that node's output
+    muted  -- whether the link is muted
+    """
+
+    socket: str
+    node: str
+    output: str
+    muted: bool
+
+
+@dataclass
+class Record:
+    """Kept on a converted node.
+
+    was     -- the state of the node that it was made from
+    links   -- that node's links which had no counterpart
+    made    -- the state of the converted node as it was made: what differs since is the user's
+    fresh   -- whether `made` is what a node without a record becomes
+    """
+
+    was: State
+    links: list[Link]
+    made: State
+    fresh: bool
+
+
+def read_record(node: bpy.types.Node) -> Record | None:
+    """Return the record that `node` keeps; None where it has none, or one that cannot be read."""
+    text = node.get(RECORD_KEY)
+    if not isinstance(text, str):
+        return None
+    try:
+        data = json.loads(text)
+        return Record(
+            was=State(**data["was"]),
+            links=[Link(**link) for link in data["links"]],
+            made=State(**data["made"]),
+            fresh=data["fresh"],
+        )
+    except (ValueError, TypeError, KeyError):  # edited by hand, or by another version
+        return None
+
+
+def write_record(node: bpy.types.Node, record: Record) -> None:
+    """Keep `record` on `node`."""
+    node[RECORD_KEY] = json.dumps(asdict(record))
+
+
+def merged(then: Translation, now: Translation, was: State) -> Translation:
+    """Return `was` as a translation, with what was changed since `then`, as `now` has it.
+
+    `then` is the translation of the node as it was made from `was`, `now` that of what it is now.
+    """
+    made = Translation(now.target, was.values.copy(), was.settings.copy(), now.carried, now.notes)
+    for old, new, kept in (
+        (then.values, now.values, made.values),
+        (then.settings, now.settings, made.settings),
+    ):
+        kept |= {name: value for name, value in new.items() if value != old.get(name)}
+    return made

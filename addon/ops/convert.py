@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Converts native materials to ours and back."""
+
+import bpy
+
+from ..nodes.convert import TO_NATIVE, TO_OURS, Conversion, plan, to_microbounce, to_native
+from ..nodes.group import GROUP_ERRORS
+
+_SCOPES = (
+    ("ACTIVE", "Active Material", "The material in the active object's active slot"),
+    ("SELECTED", "Selected Objects", "All materials of the selected objects"),
+    ("ALL", "All Materials", "All materials of this file"),
+)
+
+
+def materials_in(context: bpy.types.Context, scope: str) -> list[bpy.types.Material]:
+    """Return the materials of "ACTIVE", "SELECTED" or "ALL", each once, in the file's order."""
+    if scope == "ALL":
+        found = set(bpy.data.materials)
+    elif scope == "SELECTED":
+        found = {s.material for obj in context.selected_objects for s in obj.material_slots}
+    else:
+        # Only the Properties editor has this one; a pinned material counts.
+        material = getattr(context, "material", None)
+        if material is None and context.object is not None:
+            material = context.object.active_material
+        found = {material}
+    # Those of grease pencil have no surface.
+    return [m for m in bpy.data.materials if m in found and not m.is_grease_pencil]
+
+
+def _needs_materials(scope: str) -> str:
+    return {
+        "ACTIVE": "The active object has no material: select one that has",
+        "SELECTED": "The selected objects have no materials: select some that have",
+        "ALL": "There are no materials in this file",
+    }[scope]
+
+
+class _Converts:
+    """What both directions share; a subclass has `direction` and `convert`."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    scope: bpy.props.EnumProperty(name="Scope", description="Which materials", items=_SCOPES)
+    dry_run: bpy.props.BoolProperty(
+        name="Dry Run", description="Report what would be done, and change nothing"
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow it where the file has materials; say why otherwise."""
+        if not bpy.data.materials:
+            cls.poll_message_set(_needs_materials("ALL"))
+        return bool(bpy.data.materials)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Convert, and report every node that changes its look or stays, and a summary."""
+        materials = materials_in(context, self.scope)
+        if not materials:
+            self.report({"ERROR"}, _needs_materials(self.scope))
+            return {"CANCELLED"}
+        try:
+            done = self._convert(context.window_manager, materials)
+        except GROUP_ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for conversion in done:
+            self._report(conversion)
+        self.report({"INFO"}, summary(done, self.dry_run))
+        return {"FINISHED"}
+
+    def _convert(
+        self, manager: bpy.types.WindowManager, materials: list[bpy.types.Material]
+    ) -> list[Conversion]:
+        manager.progress_begin(0, len(materials))
+        try:
+            done = []
+            for number, material in enumerate(materials):
+                manager.progress_update(number)
+                if self.dry_run:
+                    done.append(plan(material, self.direction))
+                else:
+                    done.append(type(self).convert(material))
+            return done
+        finally:
+            manager.progress_end()
+
+    def _report(self, conversion: Conversion) -> None:
+        for entry, line in zip(conversion.entries, conversion.lines, strict=True):
+            noteworthy = entry.reason or entry.notes
+            if noteworthy or self.dry_run:
+                self.report({"WARNING" if noteworthy else "INFO"}, line)
+
+
+def summary(done: list[Conversion], dry_run: bool) -> str:
+    """Return in one line how many materials were converted, or would be in a dry run."""
+    changed = [conversion for conversion in done if conversion.converted]
+    nodes = sum(len(conversion.converted) for conversion in changed)
+    approximated = sum(len(conversion.approximated) for conversion in done)
+    refused = sum(len(conversion.refused) for conversion in done)
+    verb = "would be converted" if dry_run else "converted"
+    noun = "node" if nodes == 1 else "nodes"
+    parts = [f"{len(changed)} of {len(done)} materials {verb} ({nodes} {noun})"]
+    if approximated:
+        parts.append(f"{approximated} will look a little different")
+    if refused:
+        parts.append(f"{refused} cannot be converted")
+    if approximated or refused:
+        parts.append("see the Info editor")
+    return "; ".join(parts)
+
+
+class MICROBOUNCE_OT_to_microbounce(_Converts, bpy.types.Operator):
+    """Put nodes of ours in the place of native ones."""
+
+    bl_idname = "microbounce.to_microbounce"
+    bl_label = "Convert to Microbounce"
+    bl_description = (
+        "Replace Metallic, Glossy, Glass, Diffuse and plain Principled BSDF nodes by Microbounce "
+        "nodes of the same values and links"
+    )
+
+    direction = TO_OURS
+    convert = staticmethod(to_microbounce)
+
+
+class MICROBOUNCE_OT_to_native(_Converts, bpy.types.Operator):
+    """Put native nodes in the place of ours."""
+
+    bl_idname = "microbounce.to_native"
+    bl_label = "Convert to Cycles"
+    bl_description = (
+        "Replace Microbounce nodes by the Cycles nodes that they were made from, or the nearest"
+    )
+
+    direction = TO_NATIVE
+    convert = staticmethod(to_native)
+
+
+CLASSES = (MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native)

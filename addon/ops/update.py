@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Updates the materials of a file to today's node groups."""
+
+import bpy
+
+from ..nodes.group import GROUP_ERRORS
+from ..nodes.update import Update, old_groups, update_materials
+
+
+def obstacle() -> str:
+    """Return why nothing can be updated, with the remedy; "" where something can."""
+    try:
+        found = old_groups()
+    except GROUP_ERRORS as error:
+        return str(error)
+    return "" if found else "All Microbounce materials of this file are of this version"
+
+
+class MICROBOUNCE_OT_update_materials(bpy.types.Operator):
+    """Put today's node groups in the place of older ones."""
+
+    bl_idname = "microbounce.update_materials"
+    bl_label = "Update Materials"
+    bl_description = (
+        "Give all Microbounce nodes that older versions left in this file today's node groups, "
+        "with their values and links"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow it where old groups are used; say why otherwise."""
+        reason = obstacle()
+        if reason:
+            cls.poll_message_set(reason)
+        return not reason
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Update, and report what was lost or could not be changed."""
+        try:
+            done = update_materials()
+        except GROUP_ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for line in (*done.lost, *done.stay):
+            self.report({"WARNING"}, line)
+        self.report({"INFO"}, _summary(done))
+        return {"FINISHED"}
+
+
+def _summary(done: Update) -> str:
+    parts = [f"Nodes updated: {done.nodes}"]
+    if done.lost:
+        parts.append(f"values and links that have no place any more: {len(done.lost)}")
+    if done.stay:
+        parts.append(f"nodes that stay old: {len(done.stay)}")
+    return "; ".join(parts)
+
+
+CLASSES = (MICROBOUNCE_OT_update_materials,)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel Convert below those of Microbounce."""
+
+import bpy
+
+from ..ops.convert import MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native
+from ..ops.update import MICROBOUNCE_OT_update_materials
+from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+
+
+class _Convert:
+    """What the panel shows in both editors."""
+
+    bl_label = "Convert"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw a menu of scopes for each direction, to convert and to try out, and the update."""
+        for operator, text in (
+            (MICROBOUNCE_OT_to_microbounce, "To Microbounce"),
+            (MICROBOUNCE_OT_to_native, "To Cycles"),
+        ):
+            row = self.layout.row(align=True)
+            row.operator_menu_enum(operator.bl_idname, "scope", text=text)
+            row.operator_menu_enum(operator.bl_idname, "scope", text="Dry Run").dry_run = True
+        self.layout.operator(MICROBOUNCE_OT_update_materials.bl_idname, icon="FILE_REFRESH")
+
+
+class MICROBOUNCE_PT_convert_nodes(_Convert, bpy.types.Panel):
+    """Convert in the Shader editor."""
+
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Microbounce"
+    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
+
+
+class MICROBOUNCE_PT_convert_material(_Convert, bpy.types.Panel):
+    """Convert in the material properties."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_parent_id = MICROBOUNCE_PT_material.__name__
+
+
+CLASSES = (MICROBOUNCE_PT_convert_nodes, MICROBOUNCE_PT_convert_material)

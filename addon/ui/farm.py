@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panels of the check for a farm."""
+
+import bpy
+
+from ..ops.farm import MICROBOUNCE_OT_check_farm, last_findings
+from .findings import draw_findings
+from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+
+
+class _FarmPanel:
+    """What the check for a farm found last, with its buttons."""
+
+    bl_label = "Farm"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the buttons and the findings."""
+        layout = self.layout
+        column = layout.column(align=True)
+        column.operator(MICROBOUNCE_OT_check_farm.bl_idname, icon="VIEWZOOM")
+        button = column.operator(
+            MICROBOUNCE_OT_check_farm.bl_idname, text="Prove by Rendering", icon="RENDER_STILL"
+        )
+        button.prove = True
+        findings = last_findings(context.scene)
+        if findings is not None:
+            draw_findings(layout, context, findings)
+
+
+class MICROBOUNCE_PT_farm_shader_editor(_FarmPanel, bpy.types.Panel):
+    """The check for a farm in the Shader editor."""
+
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Microbounce"
+    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
+
+
+class MICROBOUNCE_PT_farm_material(_FarmPanel, bpy.types.Panel):
+    """The check for a farm in the material properties."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_parent_id = MICROBOUNCE_PT_material.__name__
+
+
+CLASSES = (MICROBOUNCE_PT_farm_shader_editor, MICROBOUNCE_PT_farm_material)

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Subcommands that list presets and that change files: nothing is saved unless that was asked."""
+
+import json
+
+import pytest
+
+from addon.core.presets import finishes, presets
+from blender_tests.addon.support import native_material, small_scene
+
+
+@pytest.fixture
+def file(registered, tmp_path):
+    """A saved file with our matte material "Ours" and Cycles' metal "Native"."""
+    from addon.nodes.group import new_material
+
+    _, sphere = small_scene(osl=True)
+    sphere.data.materials.append(new_material("DIFFUSE", "Ours"))
+    sphere.data.materials.append(native_material("CONDUCTOR", Roughness=0.4))
+    path = tmp_path / "scene.blend"
+    registered.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def node_kinds(bpy, path, material):
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    return sorted(
+        node.node_tree.get("microbounce_kind", "") if node.type == "GROUP" else node.type
+        for node in bpy.data.materials[material].node_tree.nodes
+        if node.type != "OUTPUT_MATERIAL"
+    )
+
+
+def test_presets_are_listed_and_searched(command):
+    code, out, _ = command("presets", "--json")
+    assert code == 0
+    listed = json.loads(out)["presets"]
+    assert len(listed) == len(presets()) + len(finishes())
+    gold = next(item for item in listed if item["identifier"] == "conductor/gold")
+    assert gold["kinds"] == ["CONDUCTOR"]
+    assert gold["source"]["licence"] == "CC0-1.0"
+    assert len(gold["values"]["BaseColor"]) == 3
+    code, out, _ = command("presets", "--kind", "conductor", "--search", "GOLD")
+    assert code == 0
+    assert "conductor/gold" in out
+    assert all(line.startswith("conductor/") for line in out.splitlines())
+    _, out, _ = command("presets", "--kind", "finish")
+    assert all(line.startswith("finish/") for line in out.splitlines())
+    assert len(out.splitlines()) == len(finishes())
+    code, out, _ = command("presets", "--search", "no such thing")
+    assert (code, out) == (1, "No preset is like that: search for less\n")
+
+
+def test_a_damaged_preset_is_an_error(command, monkeypatch, tmp_path):
+    from addon.core import presets as library
+
+    (tmp_path / "conductor").mkdir()
+    (tmp_path / "conductor" / "bad.toml").write_text("name = ", encoding="utf-8")
+    monkeypatch.setattr(library, "FOLDER", tmp_path)
+    code, _, err = command("presets")
+    assert code == 2
+    assert "bad.toml" in err
+
+
+@pytest.mark.parametrize("name", ["conductor/gold", "gold", "Gold"])
+def test_a_preset_is_applied_and_saved_as_another_file(command, file, registered, name):
+    before = file.read_bytes()
+    target = file.with_name("gold.blend")
+    arguments = ("preset", name, "--material", "Ours", "--finish", "brushed", "--file", file)
+    code, out, _ = command(*arguments, "--save-as", target, "--json")
+    assert code == 0
+    result = json.loads(out)
+    assert (result["preset"], result["finish"]) == ("conductor/gold", "finish/brushed")
+    assert (result["saved"], result["left"]) == (str(target), [])
+    assert "CONDUCTOR" in node_kinds(registered, target, "Ours")
+    assert file.read_bytes() == before
+    assert command(*arguments, "--save-as", target)[0] == 2, "never overwrites silently"
+
+
+def test_without_save_nothing_is_saved(command, file):
+    before = {path: path.read_bytes() for path in file.parent.iterdir()}
+    code, out, _ = command("preset", "gold", "--material", "Ours", "--file", file)
+    assert code == 0
+    assert "Nothing was saved: add --save or --save-as FILE" in out
+    assert command("convert", "--to", "microbounce", "--file", file)[0] == 0
+    assert {path: path.read_bytes() for path in file.parent.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("argv", "words"),
+    [
+        (("gould", "--material", "Ours"), "There is no preset 'gould': did you mean"),
+        (("qqqqqq", "--material", "Ours"), "`presets` lists what there is"),
+        (("gold", "--material", "Our"), "There is no material 'Our': use one of Ours"),
+        (("gold", "--material", "Ours", "--finish", "brush"), "did you mean brushed"),
+        (("water", "--material", "Ours", "--finish", "brushed"), "choose another finish"),
+        (("gold", "--material", "Ours", "--save-as", "there/new.blend"), "does not exist"),
+    ],
+)
+def test_names_that_are_wrong(command, file, argv, words):
+    before = file.read_bytes()
+    code, out, err = command("preset", *argv, "--file", file)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert file.read_bytes() == before
+
+
+def test_a_file_without_materials(command, registered, tmp_path):
+    path = tmp_path / "empty.blend"
+    registered.ops.wm.save_as_mainfile(filepath=str(path))
+    assert "the file has no materials" in command("preset", "gold", "--material", "A")[2]
+    assert command("convert", "--to", "native")[0] == 0
+    assert command("update")[0] == 0
+
+
+def test_names_that_several_have(registered):
+    from addon.command.names import named_item
+    from addon.command.output import CommandError
+
+    gold = next(item for item in presets() if item.identifier == "conductor/gold")
+    with pytest.raises(CommandError, match="Several presets are named 'gold'"):
+        named_item("gold", (gold, gold), "preset")
+
+
+def test_converting_there_and_back(command, file, registered):
+    code, out, _ = command("convert", "--to", "microbounce", "--dry-run", "--file", file, "--json")
+    assert code == 1, "there is something to convert"
+    result = json.loads(out)
+    assert (result["converted"], result["refused"], result["saved"]) == (1, 0, "")
+    assert [m["material"] for m in result["materials"]] == ["Native", "Ours"]
+    assert node_kinds(registered, file, "Native") == ["BSDF_METALLIC"]
+    code, out, _ = command("convert", "--to", "microbounce", "--file", file, "--save")
+    assert code == 0
+    assert "Nodes converted: 1; that stay: 0" in out
+    assert node_kinds(registered, file, "Native") == ["CONDUCTOR"]
+    argv = ("convert", "--to", "native", "--material", "Native", "--file", file, "--save")
+    assert command(*argv)[0] == 0
+    assert node_kinds(registered, file, "Native") == ["BSDF_METALLIC"]
+    assert node_kinds(registered, file, "Ours") == ["DIFFUSE"]
+
+
+def test_a_dry_run_that_shall_save_is_refused(command, file):
+    code, _, err = command("update", "--dry-run", "--save", "--file", file)
+    assert code == 2
+    assert "A dry run saves nothing" in err
+
+
+def test_updating(command, file, registered):
+    code, out, _ = command("update", "--dry-run", "--file", file)
+    assert (code, out) == (0, "All Microbounce materials are of this version\n")
+    registered.data.node_groups["Microbounce Diffuse"]["microbounce_stamp"] = "old"
+    registered.ops.wm.save_mainfile()
+    assert command("update", "--dry-run", "--file", file)[0] == 1
+    assert command("update", "--file", file, "--save", "--json")[0] == 0
+    code, out, _ = command("update", "--dry-run", "--file", file, "--json")
+    assert code == 0
+    assert json.loads(out)["old"] == []
+    assert command("check", "--file", file)[0] == 0
