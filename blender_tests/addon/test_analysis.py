@@ -48,7 +48,7 @@ def test_the_data_are_the_oracles(
     """Entries computed anew, by another seed, are those of the file within their noise."""
     stored = step_errors.left_out(kind, distribution, 0, (alpha, alpha), (ior, ior))
     made = OracleSurface(alpha, alpha, NAMES[distribution], material)
-    found = bounces.left_out(made, walks=1000, seed=7)
+    found = bounces.left_out(made, walks=400, seed=7)
     for bounce in range(2):
         a, b = (row[bounce] if bounce < len(row) else 0.0 for row in (stored, found))
         assert a == pytest.approx(b, rel=0.1, abs=0.002)
@@ -70,7 +70,7 @@ def test_colours_bound_what_the_oracle_misses(
     """After one to three bounces it is 0.8 to 1.6 times the oracle's: one Fresnel factor stands for
     all facets, and the norms of the bounces are added."""
     made = OracleSurface(alpha, alpha, NAMES[distribution], material)
-    light = bounces.light(made, sphere.FRONT_SUN, False, walks=2000, seed=3)
+    light = bounces.light(made, sphere.FRONT_SUN, False, walks=1000, seed=3)
     missing = bounces.missing(light)
     predicted = missing_after(surface(kind, alpha, colour=colour, distributions=(distribution,)))
     for found, wanted in zip(predicted[:3], missing[:3], strict=True):
@@ -83,7 +83,7 @@ def test_anisotropy_is_bounded_by_the_larger_alpha(
     alphas: tuple[float, float], distribution: int
 ) -> None:
     made = OracleSurface(*alphas, NAMES[distribution])
-    missing = bounces.left_out(made, walks=1000)[0]
+    missing = bounces.left_out(made, walks=400)[0]
     roughness, anisotropy = (alphas[0] * alphas[1]) ** 0.25, (1.0 - alphas[1] / alphas[0]) / 0.9
     predicted = missing_after(
         Surface(

@@ -15,6 +15,8 @@ from scenes import common
 
 from .support import small_scene, surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def metal(empty_file):
