@@ -17,7 +17,8 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 .NOTPARALLEL:
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture test test-all test-5.2 test-4.5 test-window window-pictures lint format addon assets previews references figures tables scenes clean
+.PHONY: help demo demo-picture analysis-demo test test-all test-5.2 test-4.5 test-window window-pictures lint \
+        format addon assets previews references figures tables scenes clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' Makefile
@@ -27,6 +28,9 @@ demo: ## Render the showcase scene with Single, Cycles Multiscatter and Microbou
 
 demo-picture: ## The same, and renew the picture in docs/ that the README shows
 	@$(any) -m scenes.demo --picture docs/comparison.jpg
+
+analysis-demo: ## Render twenty materials all in Walk, all Fitted and as analysed; time and error
+	@$(any) -m scenes.mixed_demo
 
 test: ## Run every test on one Blender version (5.2, or 4.5 where only Python 3.11 is there)
 	@$(any) $(pytest)

@@ -10,6 +10,7 @@ import bpy
 
 from . import command
 from .ops import (
+    analyse,
     check,
     convert,
     farm,
@@ -21,6 +22,7 @@ from .ops import (
     update,
     user_presets,
 )
+from .ui import analyse as analysis_panels
 from .ui import check as check_panels
 from .ui import convert as convert_panel
 from .ui import farm as farm_panels
@@ -38,15 +40,17 @@ _MODULES = (
     update,
     check,
     farm,
+    analyse,
     preferences,
     menus,
     panels,
     preset_panels,
-    command,
-    check_panels,
     convert_panel,
+    check_panels,
+    analysis_panels,
     farm_panels,
     handlers,
+    command,
 )
 
 # What undoes the registration, in the order in which it was done.

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fixtures of the extension's tests."""
 
+from functools import cache
+
 import pytest
 
 from addon.core.kinds import KINDS
@@ -51,3 +53,18 @@ def osl_scene(registered):
 
     scene, _ = small_scene(osl=True)
     return scene
+
+
+@pytest.fixture
+def compiled_once(monkeypatch):
+    """Compile each shader once for all tests that use this: none of them is about compiling."""
+    from addon.nodes import group
+
+    monkeypatch.setattr(group, "compile_source", _compiled)
+
+
+@cache
+def _compiled(source: str) -> str:
+    from addon.nodes.script import compile_source
+
+    return compile_source(source)

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The subcommand `analyse`, which proposes Quality and Max Bounces of every material."""
+
+import argparse
+
+import bpy
+
+from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..nodes.analyse import Report, analyse
+from .files import add_file_argument, open_file
+from .output import CommandError, emit
+
+NAME = "analyse"
+HELP = "Propose the cheapest Quality of every material that keeps the picture within a tolerance."
+EXAMPLES = ("", "--tolerance 0.02", "--json")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of this subcommand."""
+    add_file_argument(parser)
+    add_tolerance_argument(parser)
+
+
+def add_tolerance_argument(parser: argparse.ArgumentParser) -> None:
+    """Add `--tolerance`."""
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=DEFAULT_TOLERANCE,
+        metavar="T",
+        help="how far off the picture may be, as image L2, above 0 to 1 (%(default)s)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the table; 1 where a change is proposed, else 0. Nothing is changed."""
+    path = open_file(arguments)
+    report = analysed(arguments)
+    emit(arguments, {"file": str(path)} | report.as_dict(), "\n".join(table(report)))
+    return 1 if report.changes else 0
+
+
+def analysed(arguments: argparse.Namespace) -> Report:
+    """Return the analysis of the open scene; raises CommandError for a bad tolerance."""
+    try:
+        return analyse(bpy.context, arguments.tolerance)
+    except ValueError as error:
+        raise CommandError(str(error)) from error
+
+
+def table(report: Report) -> list[str]:
+    """Return the lines of the table for people."""
+    if not report.rows:
+        return ["No object of the scene shows a Microbounce material"]
+    lines = [] if report.has_camera else ["There is no camera to find shares: all are equal"]
+    for row in report.rows:
+        one = row.proposal
+        change = f"{one.now} to {one.then}" if one.changes else f"{one.now}, stays"
+        lines.append(f"{row.name} ({percent(one.share)} of the picture): {change}")
+        lines.append(f"    off by {percent(one.error_now)}, then {percent(one.error_then)}")
+        lines += [f"    {text}" for text in (one.reason, *row.notes)]
+    lines.append(
+        f"Picture: off by {percent(report.error_now)}, then {percent(report.error_then)}; "
+        f"time of a sample {report.time_ratio:.2f} times that of now"
+    )
+    return lines

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The subcommand `apply`, which sets what `analyse` proposes."""
+
+import argparse
+
+import bpy
+
+from ..nodes.analyse import apply
+from .analyse import add_tolerance_argument, analysed, table
+from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file
+from .output import emit
+
+NAME = "apply"
+HELP = "Set the Quality and Max Bounces that `analyse` proposes."
+EXAMPLES = ("--save-as FAST.blend", "--tolerance 0.02 --save")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of this subcommand."""
+    add_file_argument(parser)
+    add_tolerance_argument(parser)
+    add_save_arguments(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Set the values, print the table, and save where that was asked; 0."""
+    check_target(arguments)
+    path = open_file(arguments)
+    report = analysed(arguments)
+    done, left = apply(bpy.context, report)
+    saved = save_file(arguments)
+    lines = [*table(report), f"{len(done)} materials set"]
+    lines.append(f"Saved {saved}" if saved else "Nothing was saved: add --save-as FILE or --save")
+    data = {"file": str(path), "saved": saved, "set": done, "left": left} | report.as_dict()
+    emit(arguments, data, "\n".join(lines))
+    return 0

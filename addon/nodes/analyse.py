@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Analyses all our materials of a scene, and applies what was proposed."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import bpy
+
+from ..core.analysis import Proposal, propose, time_ratio, unchanged
+from ..core.picture_error import picture_error
+from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
+from .share import picture_shares, shown_materials
+
+
+@dataclass(frozen=True)
+class Row:
+    """What was found and is proposed for one node.
+
+    key  -- finds the node again
+    name -- the material's, and the node's where that has a name of its own
+    notes -- what could not be told, in short sentences without full stops
+    """
+
+    key: tuple[str, str, str]
+    name: str
+    kind: str
+    proposal: Proposal
+    notes: tuple[str, ...] = ()
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it."""
+        one = self.proposal
+        return {
+            "material": self.name,
+            "kind": self.kind,
+            "share": round(one.share, 4),
+            "now": {"quality": one.now.quality, "max_bounces": one.now.max_bounces},
+            "then": {"quality": one.then.quality, "max_bounces": one.then.max_bounces},
+            "error_now": round(one.error_now, 5),
+            "error_then": round(one.error_then, 5),
+            "limit": round(one.limit, 5),
+            "changes": one.changes,
+            "reason": one.reason,
+            "notes": list(self.notes),
+        }
+
+
+@dataclass(frozen=True)
+class Report:
+    """The analysis of a scene: the rows by falling share.
+
+    has_camera -- False where the shares could not be found and all materials weigh the same
+    """
+
+    scene: str
+    tolerance: float
+    rows: tuple[Row, ...]
+    has_camera: bool
+
+    @property
+    def changes(self) -> tuple[Row, ...]:
+        """The rows that propose something."""
+        return tuple(row for row in self.rows if row.proposal.changes)
+
+    @property
+    def error_now(self) -> float:
+        """The predicted error of the picture, as image L2 where all is as bright."""
+        return picture_error([(r.proposal.share, r.proposal.error_now) for r in self.rows])
+
+    @property
+    def error_then(self) -> float:
+        """The same with all proposals applied."""
+        return picture_error([(r.proposal.share, r.proposal.error_then) for r in self.rows])
+
+    @property
+    def time_ratio(self) -> float:
+        """The predicted time of a sample with all proposals, over that now."""
+        return time_ratio([row.proposal for row in self.rows])
+
+    def as_dict(self) -> dict[str, object]:
+        """Return it as JSON takes it."""
+        return {
+            "scene": self.scene,
+            "tolerance": self.tolerance,
+            "has_camera": self.has_camera,
+            "error_now": round(self.error_now, 5),
+            "error_then": round(self.error_then, 5),
+            "time_ratio": round(self.time_ratio, 3),
+            "materials": [row.as_dict() for row in self.rows],
+        }
+
+
+def analyse(
+    context: bpy.types.Context,
+    tolerance: float,
+    progress: Callable[[float], None] = lambda part: None,
+) -> Report:
+    """Analyse the scene of `context` and return what is proposed; nothing is changed.
+
+    tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
+    progress  -- is told the part that is done, from 0 to 1
+    """
+    if not 0.0 < tolerance <= 1.0:
+        raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
+    found = found_nodes(shown_materials(context))
+    clear = {
+        material.name_full
+        for one in found
+        if one.kind.identifier == "DIELECTRIC"
+        for material in one.materials
+    }
+    shares = picture_shares(context, lambda material: material.name_full in clear, progress)
+    rows = []
+    for one in found:
+        share = shares.of(one.materials, len(found))
+        rows.append(_row(one, share, len(found), tolerance))
+    rows.sort(key=lambda row: (-row.proposal.share, row.name))
+    return Report(context.scene.name, tolerance, tuple(rows), shares.has_camera)
+
+
+def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
+    """Set what `report` proposes; return the names of what was set and of what was left.
+
+    What has changed since, so that it is gone or cannot be set, is left.
+    """
+    found = {one.key: one for one in found_nodes(shown_materials(context))}
+    done, left = [], []
+    for row in report.changes:
+        one = found.get(row.key)
+        if one is None or obstacle(one) or read_choice(one) != row.proposal.now:
+            left.append(row.name)
+            continue
+        apply_choice(one, row.proposal.then)
+        done.append(row.name)
+    return done, left
+
+
+def _row(found: Found, share: float, count: int, tolerance: float) -> Row:
+    surface, notes = read_surface(found)
+    now = read_choice(found)
+    reason = obstacle(found)
+    if reason:
+        proposal = unchanged(surface, now, share, count, tolerance, f"{reason}: it stays")
+    else:
+        proposal = propose(surface, now, share, count, tolerance)
+    return Row(found.key, found.name, found.kind.identifier, proposal, notes)

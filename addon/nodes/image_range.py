@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The smallest and largest values of an image's channels, as a shader reads them."""
+
+import bpy
+
+# Larger images are not read: their pixels would take more than 268 MB.
+_MOST_PIXELS = 1 << 24
+_RAW = ("Non-Color", "Raw", "Generic Data", "Linear", "Linear Rec.709", "scene_linear")
+
+
+def image_range(image: bpy.types.Image | None) -> tuple[tuple[float, float], ...] | None:
+    """Return the ranges of red, green, blue and alpha, None where they cannot be told.
+
+    That is where it is missing, too large, a sequence, a movie or tiled, or in a colour space that
+    is neither sRGB nor linear. An image that was not in memory is not kept there.
+    """
+    if image is None or image.source not in ("FILE", "GENERATED"):
+        return None
+    loaded = image.has_data
+    found = _read(image)
+    if not loaded:
+        image.buffers_free()
+    return found
+
+
+def _read(image: bpy.types.Image) -> tuple[tuple[float, float], ...] | None:
+    import numpy as np
+
+    width, height = image.size
+    channels, encoded = image.channels, not image.is_float
+    if not 0 < width * height <= _MOST_PIXELS or channels not in (1, 3, 4):
+        return None
+    space = image.colorspace_settings.name
+    if space not in (*_RAW, "sRGB"):
+        return None
+    pixels = np.empty(width * height * channels, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(-1, channels)
+    # These pass over what is not a number.
+    ends = np.stack([np.fmin.reduce(pixels), np.fmax.reduce(pixels)]).astype(float)
+    colours = ends[:, :1].repeat(3, axis=1) if channels == 1 else ends[:, :3]
+    # The pixels of byte images are as in the file, those of float images linear.
+    if space == "sRGB" and encoded:
+        curve = ((np.maximum(colours, 0.0) + 0.055) / 1.055) ** 2.4
+        colours = np.where(colours <= 0.04045, colours / 12.92, curve)
+    alpha = ends[:, 3:] if channels == 4 else np.ones((2, 1))
+    return tuple((float(low), float(high)) for low, high in np.hstack([colours, alpha]).T)

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finds our nodes that the materials of a scene show, and reads them as surfaces."""
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+
+import bpy
+
+from ..core.analysis import MOST_BOUNCES, QUALITIES, Choice, Surface
+from ..core.intervals import Interval, clamped, hull
+from ..core.kinds import Kind, kind_named
+from ..core.parameter import Parameter
+from ..core.reflectance import mean_of_index, mean_of_tint
+from .group import KIND_KEY
+from .ranges import Path, Range, group_output, input_range
+
+
+@dataclass
+class Found:
+    """One of our nodes, and how it is reached.
+
+    tree      -- the node tree that holds it: a material's, or a group's that several may use
+    materials -- the materials that show it
+    paths     -- for each way to it, the group nodes from the outermost to the innermost
+    """
+
+    tree: bpy.types.NodeTree
+    node: bpy.types.ShaderNodeGroup
+    materials: list[bpy.types.Material] = field(default_factory=list)
+    paths: list[Path] = field(default_factory=list)
+
+    @property
+    def kind(self) -> Kind:
+        """What it is made of."""
+        return kind_named(self.node.node_tree[KIND_KEY])
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether it lies in a node group, not in a material's own nodes."""
+        return bool(self.paths[0])
+
+    @property
+    def key(self) -> tuple[str, str, str]:
+        """What finds it again in the file: no two nodes have the same."""
+        owner = self.tree if self.is_shared else self.materials[0]
+        return ("group" if self.is_shared else "material", owner.name_full, self.node.name)
+
+    @property
+    def name(self) -> str:
+        """The material, and the node where that has a name of its own."""
+        names = ", ".join(material.name for material in self.materials)
+        return names if self.node.name == self.kind.name else f"{names}: {self.node.name}"
+
+
+def found_nodes(materials: Iterable[bpy.types.Material]) -> list[Found]:
+    """Return our nodes that reach the outputs of these materials, each node once."""
+    found: dict[tuple[int, str], Found] = {}
+    for material in materials:
+        tree = material.node_tree
+        if bpy.app.version < (5, 0, 0) and not material.use_nodes:  # later always on
+            continue
+        output = tree.get_output_node("CYCLES") if tree is not None else None
+        if output is None:
+            continue
+        for path, node in _reached(tree, output):
+            tree_of_node = path[-1].node_tree if path else tree
+            key = (tree_of_node.as_pointer(), node.name)
+            one = found.setdefault(key, Found(tree_of_node, node))
+            if material not in one.materials:
+                one.materials.append(material)
+            one.paths.append(path)
+    return list(found.values())
+
+
+def read_surface(found: Found) -> tuple[Surface, tuple[str, ...]]:
+    """Return the surface with all that its inputs can take, and notes on what cannot be told."""
+    notes: list[str] = []
+    kind = found.kind
+
+    def read(identifier: str) -> Range:
+        return _legal_range(found, kind.by_identifier[identifier], notes)
+
+    def number(identifier: str) -> Interval:
+        return read(identifier)[0]
+
+    surface = Surface(
+        kind=kind.identifier,
+        roughness=number("Roughness"),
+        anisotropy=number("Anisotropy"),
+        distributions=_whole(number("Distribution")),
+        models=_whole(number("Model")),
+        colour=_brightest(kind, read),
+        ior=number("IOR") if kind.identifier == "DIELECTRIC" else (1.5, 1.5),
+        tolerance=number("Tolerance")[1],
+        walks=round(number("Walks")[1]),
+    )
+    return surface, tuple(notes)
+
+
+def read_choice(found: Found) -> Choice:
+    """Return what is set on the node; of linked inputs it is the value that they would have."""
+    quality = _set_value(found, "Quality", len(QUALITIES) - 1)
+    return Choice(QUALITIES[quality], max(_set_value(found, "MaxBounces", MOST_BOUNCES), 1))
+
+
+def obstacle(found: Found) -> str:
+    """Return why nothing can be proposed for the node or set on it, "" where it can."""
+    owners = (found.tree, *(() if found.is_shared else found.materials))
+    if any(owner.library for owner in owners):
+        return "It is linked from a library"
+    if any(owner.override_library for owner in owners):
+        return "It is a library override"
+    for identifier in ("Quality", "MaxBounces"):
+        label = found.kind.by_identifier[identifier].label
+        socket = found.node.inputs.get(label)
+        if socket is None:
+            return f"Its node group is of another version and has no {label}"
+        if socket.is_linked:
+            return f"{label} is linked"
+        if socket.path_from_id("default_value") in _animated(found.tree):
+            return f"{label} has a driver or is animated"
+    only = found.kind.by_identifier["BounceOnly"]
+    if _legal_range(found, only, [])[0] != (0.0, 0.0):
+        return f"{only.label} shows one bounce, for study"
+    return ""
+
+
+def apply_choice(found: Found, choice: Choice) -> None:
+    """Set the node's Quality and Max Bounces."""
+    by_identifier = found.kind.by_identifier
+    quality, bounces = by_identifier["Quality"], by_identifier["MaxBounces"]
+    found.node.inputs[quality.label].default_value = quality.checked(choice.quality)
+    found.node.inputs[bounces.label].default_value = bounces.checked(choice.max_bounces)
+
+
+def _reached(
+    tree: bpy.types.NodeTree, output: bpy.types.Node
+) -> Iterator[tuple[Path, bpy.types.Node]]:
+    """Yield our nodes from which closures reach the output, and the groups in which they lie."""
+    waiting: list[tuple[Path, bpy.types.Node]] = [((), output)]
+    seen = set()
+    while waiting:
+        path, node = waiting.pop()
+        key = (*(one.as_pointer() for one in path), node.as_pointer())
+        if key in seen:
+            continue
+        seen.add(key)
+        group = node.node_tree if node.bl_idname == "ShaderNodeGroup" else None
+        if group is not None and not node.mute:
+            if KIND_KEY in group:
+                yield path, node
+            else:
+                end = group_output(group)
+                waiting += [((*path, node), end)] if end else []
+            continue
+        if node.bl_idname == "NodeGroupInput" and path:
+            waiting += [(path[:-1], one) for one in _linked(path[-1])]
+        waiting += [(path, one) for one in _linked(node)]
+
+
+def _linked(node: bpy.types.Node) -> list[bpy.types.Node]:
+    return [
+        link.from_node
+        for socket in node.inputs
+        if socket.type == "SHADER" or node.bl_idname == "NodeReroute"
+        for link in socket.links
+        if link.is_valid and not link.is_muted
+    ]
+
+
+def _legal_range(found: Found, parameter: Parameter, notes: list[str]) -> Range:
+    """Return the range of an input over all ways to the node, within what is legal."""
+    socket = found.node.inputs.get(parameter.label)
+    if socket is None:
+        value = parameter.default
+        return tuple((v, v) for v in (value if parameter.is_vector else (value,)))
+    ways = [input_range(socket, path) for path in found.paths]
+    low, high = parameter.legal
+    if any(not math.isfinite(end) for way in ways for part in way for end in part):
+        notes.append(f"{parameter.label} is unknown, taken as {low:g} to {high:g}")
+    return tuple(clamped(hull(parts), low, high) for parts in zip(*ways, strict=True))
+
+
+def _brightest(kind: Kind, read: Callable[[str], Range]) -> tuple[float, float, float]:
+    """Return the most that is left of light after a bounce."""
+    if kind.identifier != "CONDUCTOR":
+        return tuple(high for _, high in read("Color"))
+    fresnel = _whole(read("Fresnel")[0])
+    found = []
+    if 0 in fresnel:
+        colours = [tuple(high for _, high in read(name)) for name in ("BaseColor", "EdgeTint")]
+        found.append(mean_of_tint(*colours))
+    if 1 in fresnel:
+        n, k = read("IOR"), read("Extinction")
+        if all(low == high for low, high in (*n, *k)):
+            found.append(mean_of_index([low for low, _ in n], [low for low, _ in k]))
+        else:
+            found.append((1.0, 1.0, 1.0))
+    return tuple(map(max, zip(*found, strict=True)))
+
+
+def _whole(interval: Interval) -> tuple[int, ...]:
+    return tuple(range(math.floor(interval[0]), math.ceil(interval[1]) + 1))
+
+
+def _set_value(found: Found, identifier: str, highest: int) -> int:
+    parameter = found.kind.by_identifier[identifier]
+    socket = found.node.inputs.get(parameter.label)
+    value = parameter.default if socket is None else socket.default_value
+    return min(max(int(value), 0), highest)
+
+
+def _animated(tree: bpy.types.NodeTree) -> set[str]:
+    """Return the paths in the tree that have drivers or keys."""
+    data = tree.animation_data
+    if data is None:
+        return set()
+    paths = {driver.data_path for driver in data.drivers}
+    for layer in data.action.layers if data.action else ():
+        for strip in layer.strips:
+            for bag in strip.channelbags:
+                paths |= {curve.data_path for curve in bag.fcurves}
+    return paths

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Analyses the scene's materials, keeps the table in memory, and applies it."""
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..ui.text import message
+
+# What does the work is imported when it is called: a start of Blender pays nothing for it.
+if TYPE_CHECKING:
+    from ..nodes.analyse import Report
+
+TOLERANCE_PROPERTY = "microbounce_analysis_tolerance"
+
+# The last analysis, with the file to which it belongs; nothing of it is stored in the file.
+_kept: "tuple[str, Report] | None" = None
+
+
+def last_report(context: bpy.types.Context) -> "Report | None":
+    """Return the last analysis of the context's scene, None where there is none."""
+    if _kept is None:
+        return None
+    path, report = _kept
+    return report if (path, report.scene) == (bpy.data.filepath, context.scene.name) else None
+
+
+def _tolerance() -> bpy.props.FloatProperty:
+    return bpy.props.FloatProperty(
+        name="Tolerance",
+        description="How far off the picture may be: the root of its mean squared error, "
+        "relative to the picture, apart from noise",
+        default=DEFAULT_TOLERANCE,
+        min=0.0005,
+        max=1.0,
+        soft_max=0.1,
+        step=0.1,
+        precision=4,
+    )
+
+
+class MICROBOUNCE_OT_analyse(bpy.types.Operator):
+    """Make the table of proposals; change nothing."""
+
+    bl_idname = "microbounce.analyse"
+    bl_label = "Analyse Materials"
+    bl_description = (
+        "Find the cheapest Quality and Max Bounces of every Microbounce material that keep the "
+        "picture within the tolerance. Nothing is changed"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    tolerance: _tolerance()
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Analyse the scene with a progress display at the pointer."""
+        from ..nodes.analyse import analyse
+
+        global _kept
+        manager = context.window_manager
+        manager.progress_begin(0.0, 1.0)
+        try:
+            report = analyse(context, self.tolerance, manager.progress_update)
+        finally:
+            manager.progress_end()
+        _kept = (bpy.data.filepath, report)
+        if not report.rows:
+            self.report({"WARNING"}, "No object of the scene shows a Microbounce material")
+            return {"FINISHED"}
+        count = len(report.changes)
+        self.report(
+            {"INFO"},
+            message(
+                "{count} of {all} materials could change; the picture would be {error} off",
+                count=count,
+                all=len(report.rows),
+                error=percent(report.error_then),
+            ),
+        )
+        return {"FINISHED"}
+
+
+class MICROBOUNCE_OT_apply_analysis(bpy.types.Operator):
+    """Set what the last analysis proposed."""
+
+    bl_idname = "microbounce.apply_analysis"
+    bl_label = "Apply Analysis"
+    bl_description = "Set Quality and Max Bounces of the materials as the table proposes"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow it after an analysis that proposes something; say why otherwise."""
+        report = last_report(context)
+        if report is None:
+            cls.poll_message_set("There is no analysis of this scene: press Analyse Materials")
+            return False
+        if not report.changes:
+            cls.poll_message_set("The analysis proposes no change")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Set the values; name what has changed since the analysis and was left."""
+        from ..nodes.analyse import apply
+
+        done, left = apply(context, last_report(context))
+        if not done:
+            self.report(
+                {"ERROR"},
+                "Nothing was set: the materials are not as they were. Analyse them anew",
+            )
+            return {"CANCELLED"}
+        if left:
+            self.report(
+                {"WARNING"},
+                message(
+                    "{count} set; left as they have changed since: {names}",
+                    count=len(done),
+                    names=", ".join(left),
+                ),
+            )
+        else:
+            self.report({"INFO"}, message("{count} materials set", count=len(done)))
+        return {"FINISHED"}
+
+
+CLASSES = (MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis)
+
+
+def register() -> None:
+    """Add the tolerance that the panel shows; it lasts as long as Blender runs."""
+    setattr(bpy.types.WindowManager, TOLERANCE_PROPERTY, _tolerance())
+
+
+def unregister() -> None:
+    """Remove it, and forget the table."""
+    global _kept
+    delattr(bpy.types.WindowManager, TOLERANCE_PROPERTY)
+    _kept = None

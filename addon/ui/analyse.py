@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panels of the analysis."""
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.picture_error import percent
+from ..ops.analyse import (
+    TOLERANCE_PROPERTY,
+    MICROBOUNCE_OT_analyse,
+    MICROBOUNCE_OT_apply_analysis,
+    last_report,
+)
+from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+from .text import label
+
+if TYPE_CHECKING:
+    from ..nodes.analyse import Report, Row
+
+# As many rows as a panel shows; what changes comes first.
+_MOST_ROWS = 24
+
+
+def draw_analysis(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw the tolerance, the buttons, and the last analysis of the scene."""
+    manager = context.window_manager
+    layout.prop(manager, TOLERANCE_PROPERTY)
+    row = layout.row(align=True)
+    button = row.operator(MICROBOUNCE_OT_analyse.bl_idname)
+    button.tolerance = getattr(manager, TOLERANCE_PROPERTY)
+    row.operator(MICROBOUNCE_OT_apply_analysis.bl_idname)
+    report = last_report(context)
+    if report is not None:
+        _draw_report(layout, report)
+
+
+def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
+    if not report.rows:
+        layout.label(text="No object shows a Microbounce material", icon="INFO")
+        return
+    if not report.has_camera:
+        layout.label(text="Shares are equal: there is no camera to find them", icon="INFO")
+    changes = report.changes
+    rows = (*changes, *(row for row in report.rows if row not in changes))
+    for row in rows[:_MOST_ROWS]:
+        _draw_row(layout.box().column(align=True), row)
+    if len(rows) > _MOST_ROWS:
+        layout.label(text=label("{count} more", count=len(rows) - _MOST_ROWS))
+    column = layout.column(align=True)
+    column.label(
+        text=label(
+            "Picture: {now} off, then {then}",
+            now=percent(report.error_now),
+            then=percent(report.error_then),
+        )
+    )
+    column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
+
+
+def _draw_row(column: bpy.types.UILayout, row: "Row") -> None:
+    one = row.proposal
+    head = column.split(factor=0.5)
+    head.label(text=row.name, icon="MATERIAL")
+    head.label(text=label("{share} of the picture", share=percent(one.share)))
+    now, error = one.now, percent(one.error_now)
+    if one.changes:
+        then = percent(one.error_then)
+        column.label(text=label("{now} to {then}", now=now, then=one.then), icon="FORWARD")
+        column.label(text=label("Off by {now}, then {then}", now=error, then=then))
+    else:
+        column.label(text=label("{now}: off by {error}", now=now, error=error), icon="CHECKMARK")
+    for text in (one.reason, *row.notes):
+        column.label(text=text[:1].upper() + text[1:], icon="BLANK1")
+
+
+class _AnalysisPanel:
+    """The last analysis of the scene, with its buttons."""
+
+    bl_label = "Analysis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the buttons and the table."""
+        draw_analysis(self.layout, context)
+
+
+class MICROBOUNCE_PT_analysis_shader_editor(_AnalysisPanel, bpy.types.Panel):
+    """The analysis in the Shader editor."""
+
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Microbounce"
+    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
+
+
+class MICROBOUNCE_PT_analysis_material(_AnalysisPanel, bpy.types.Panel):
+    """The analysis in the material properties."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    bl_parent_id = MICROBOUNCE_PT_material.__name__
+
+
+CLASSES = (MICROBOUNCE_PT_analysis_shader_editor, MICROBOUNCE_PT_analysis_material)

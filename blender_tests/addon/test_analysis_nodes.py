@@ -1,0 +1,364 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the analysis reads from materials, and the shares of the picture that it finds."""
+
+import math
+
+import pytest
+
+from addon.core.intervals import ANYTHING, OPERATIONS, corners, mapped
+from addon.core.kinds import KINDS
+from addon.nodes.group import add_group_node, material_group, new_material
+from addon.nodes.inspect import found_nodes, obstacle, read_choice, read_surface
+from addon.nodes.ranges import input_range
+from addon.nodes.share import SMALLEST_SHARE, Shares, picture_shares, shown_materials
+from scenes import common
+
+from .support import small_scene, surface_material
+
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
+
+@pytest.fixture
+def metal(empty_file):
+    """A metal, its node tree and our node in it."""
+    material = new_material("CONDUCTOR", "Metal")
+    tree = material.node_tree
+    return material, tree, next(n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
+
+
+def alphas_of(material) -> tuple:
+    (found,) = found_nodes([material])
+    return read_surface(found)
+
+
+def image(low: float, high: float, name: str = "Slope", data: bool = True):
+    import bpy
+
+    made = bpy.data.images.new(name, 8, 8, float_buffer=data, is_data=data)
+    values = [low + (high - low) * i / 63 for i in range(64)]
+    made.pixels = [part for v in values for part in (v, v, v, 1.0)]
+    return made
+
+
+def textured(tree, made):
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = made
+    return node.outputs["Color"]
+
+
+def math_node(tree, operation: str, source, *values: float, clamp: bool = False):
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation, node.use_clamp = operation, clamp
+    tree.links.new(source, node.inputs[0])
+    for socket, value in zip(node.inputs[1:], values, strict=False):
+        socket.default_value = value
+    return node.outputs[0]
+
+
+def linked_range(tree, node, source) -> tuple[float, float]:
+    tree.links.new(source, node.inputs["Roughness"])
+    return input_range(node.inputs["Roughness"])[0]
+
+
+def test_plain_values(kind, empty_file) -> None:
+    material = new_material(kind, "Plain", Roughness=0.6, Quality="Walk", MaxBounces=5, Walks=2)
+    (found,) = found_nodes([material])
+    surface, notes = read_surface(found)
+    assert notes == ()
+    assert surface.kind == kind
+    assert surface.roughness == pytest.approx((0.6, 0.6))
+    assert surface.alphas == pytest.approx((0.36, 0.36))
+    assert (surface.walks, surface.models, surface.distributions) == (2, (0,), (0,))
+    assert str(read_choice(found)) == "Walk, 5 bounces"
+    assert obstacle(found) == ""
+    assert found.name == "Plain"
+
+
+def test_an_image_gives_its_range(metal) -> None:
+    _, tree, node = metal
+    found = linked_range(tree, node, textured(tree, image(0.2, 0.7)))
+    assert found == pytest.approx((0.2, 0.7), abs=1e-4)
+
+
+def test_srgb_images_are_made_linear(metal) -> None:
+    _, tree, node = metal
+    found = linked_range(tree, node, textured(tree, image(0.0, 0.5, data=False)))
+    assert found == pytest.approx((0.0, ((0.5 + 0.055) / 1.055) ** 2.4), abs=0.01)
+
+
+def test_a_missing_image_can_be_anything(metal) -> None:
+    material, tree, node = metal
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    tree.links.new(texture.outputs["Color"], node.inputs["Roughness"])
+    surface, notes = alphas_of(material)
+    assert surface.roughness == (0.0, 1.0)
+    assert notes == ("Roughness is unknown, taken as 0 to 1",)
+
+
+def test_a_lost_file_can_be_anything(metal, tmp_path) -> None:
+    import bpy
+
+    material, tree, node = metal
+    path = tmp_path / "slope.png"
+    made = image(0.2, 0.7)
+    made.filepath_raw, made.file_format = str(path), "PNG"
+    made.save()
+    kept = bpy.data.images.load(str(path))
+    kept.colorspace_settings.name = "Non-Color"
+    tree.links.new(textured(tree, kept), node.inputs["Roughness"])
+    assert alphas_of(material)[0].roughness == pytest.approx((0.2, 0.7), abs=0.01)
+    assert not kept.has_data  # it is not kept in memory
+    path.unlink()
+    kept.reload()
+    assert alphas_of(material)[0].roughness == (0.0, 1.0)
+
+
+def test_maths_and_maps(metal) -> None:
+    _, tree, node = metal
+    source = textured(tree, image(0.2, 0.6))
+    half = math_node(tree, "MULTIPLY", source, 0.5)
+    assert linked_range(tree, node, half) == pytest.approx((0.1, 0.3), abs=1e-4)
+    inverse = math_node(tree, "SUBTRACT", source, 1.0, clamp=True)
+    assert linked_range(tree, node, inverse) == pytest.approx((0.0, 0.0))
+    spread = tree.nodes.new("ShaderNodeMapRange")
+    tree.links.new(half, spread.inputs["Value"])
+    spread.inputs["From Max"].default_value = 0.2
+    spread.inputs["To Min"].default_value, spread.inputs["To Max"].default_value = 0.9, 0.5
+    found = linked_range(tree, node, spread.outputs[0])
+    assert found == pytest.approx((0.5, 0.7), abs=1e-4)
+    invert = tree.nodes.new("ShaderNodeInvert")
+    tree.links.new(source, invert.inputs["Color"])
+    assert linked_range(tree, node, invert.outputs[0]) == pytest.approx((0.4, 0.8), abs=1e-4)
+    gamma = tree.nodes.new("ShaderNodeGamma")
+    tree.links.new(source, gamma.inputs["Color"])
+    gamma.inputs["Gamma"].default_value = 2.0
+    assert linked_range(tree, node, gamma.outputs[0]) == pytest.approx((0.04, 0.36), abs=1e-4)
+
+
+def test_a_clamp_limits_what_is_unknown(metal) -> None:
+    """No image, but a Map Range that clamps."""
+    _, tree, node = metal
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    spread = tree.nodes.new("ShaderNodeMapRange")
+    tree.links.new(noise.outputs[0], spread.inputs["Value"])
+    spread.inputs["To Min"].default_value, spread.inputs["To Max"].default_value = 0.1, 0.2
+    assert linked_range(tree, node, spread.outputs[0]) == pytest.approx((0.1, 0.2))
+    assert linked_range(tree, node, noise.outputs[0]) == ANYTHING
+
+
+def test_a_ramp_is_followed_between_its_ends(metal) -> None:
+    _, tree, node = metal
+    ramp = tree.nodes.new("ShaderNodeValToRGB")
+    ramp.color_ramp.elements[0].color = (0.3, 0.3, 0.3, 1.0)
+    ramp.color_ramp.elements[1].color = (0.5, 0.5, 0.5, 1.0)
+    peak = ramp.color_ramp.elements.new(0.37)
+    peak.color = (0.9, 0.9, 0.9, 1.0)
+    tree.links.new(textured(tree, image(0.0, 1.0)), ramp.inputs[0])
+    assert linked_range(tree, node, ramp.outputs[0]) == pytest.approx((0.3, 0.9), abs=1e-4)
+
+
+@pytest.mark.parametrize("blend", ["MIX", "MULTIPLY", "ADD"])
+def test_mixes_hold_all_that_blender_makes(metal, blend: str) -> None:
+    _, tree, node = metal
+    mix = tree.nodes.new("ShaderNodeMix")
+    mix.data_type, mix.blend_type = "RGBA", blend
+    by_identifier = {socket.identifier: socket for socket in mix.inputs}
+    tree.links.new(textured(tree, image(0.1, 0.3)), by_identifier["A_Color"])
+    by_identifier["B_Color"].default_value = (0.5, 0.5, 0.5, 1.0)
+    by_identifier["Factor_Float"].default_value = 0.5
+    output = next(socket for socket in mix.outputs if socket.identifier == "Result_Color")
+    wanted = {"MIX": (0.3, 0.4), "MULTIPLY": (0.075, 0.225), "ADD": (0.35, 0.55)}[blend]
+    assert linked_range(tree, node, output) == pytest.approx(wanted, abs=1e-4)
+
+
+def test_reroutes_and_muted_nodes(metal) -> None:
+    _, tree, node = metal
+    value = tree.nodes.new("ShaderNodeValue")
+    value.outputs[0].default_value = 0.35
+    reroute = tree.nodes.new("NodeReroute")
+    tree.links.new(value.outputs[0], reroute.inputs[0])
+    halved = math_node(tree, "MULTIPLY", reroute.outputs[0], 0.5)
+    assert linked_range(tree, node, halved) == pytest.approx((0.175, 0.175))
+    halved.node.mute = True
+    assert linked_range(tree, node, halved) == pytest.approx((0.35, 0.35))
+
+
+def test_a_group_is_entered_and_left(metal) -> None:
+    """Our node lies in a group whose roughness comes from outside, of two materials."""
+    import bpy
+
+    group = bpy.data.node_groups.new("Outer", "ShaderNodeTree")
+    group.interface.new_socket("Rough", in_out="INPUT", socket_type="NodeSocketFloat")
+    group.interface.new_socket("Out", in_out="OUTPUT", socket_type="NodeSocketShader")
+    inputs, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
+    inner = add_group_node(group, material_group("CONDUCTOR"))
+    group.links.new(inputs.outputs["Rough"], inner.inputs["Roughness"])
+    group.links.new(inner.outputs["BSDF"], end.inputs["Out"])
+    materials = []
+    for number, rough in enumerate((0.2, 0.8)):
+        material, tree, output = surface_material(f"User {number}")
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        node.inputs["Rough"].default_value = rough
+        tree.links.new(node.outputs[0], output.inputs["Surface"])
+        materials.append(material)
+    (found,) = found_nodes(materials)
+    assert found.materials == materials
+    assert found.key[:2] == ("group", "Outer")
+    surface, notes = read_surface(found)
+    assert surface.roughness == pytest.approx((0.2, 0.8))
+    assert notes == ()
+
+
+def test_what_is_not_linked_is_not_found(metal) -> None:
+    material, tree, node = metal
+    assert len(found_nodes([material])) == 1
+    tree.links.remove(node.outputs["BSDF"].links[0])
+    assert found_nodes([material]) == []
+
+
+def test_muted_and_foreign_materials_are_not_found(metal) -> None:
+    import bpy
+
+    material, _, node = metal
+    node.mute = True
+    bare, _, _ = surface_material("Bare")
+    assert found_nodes([material, bare, bpy.data.materials.new("Plain")]) == []
+
+
+def test_two_nodes_of_one_material_are_told_apart(metal) -> None:
+    material, tree, node = metal
+    other = add_group_node(tree, material_group("DIFFUSE"))
+    other.name = "Dirt"
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    output = tree.get_output_node("CYCLES")
+    tree.links.new(node.outputs[0], mix.inputs[1])
+    tree.links.new(other.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    names = sorted(found.name for found in found_nodes([material]))
+    assert names == ["Metal", "Metal: Dirt"]
+
+
+@pytest.mark.parametrize("label", ["Quality", "Max Bounces"])
+def test_drivers_keys_and_links_are_left_alone(metal, label: str) -> None:
+    material, tree, node = metal
+    socket = node.inputs[label]
+    socket.driver_add("default_value")
+    assert obstacle(found_nodes([material])[0]) == f"{label} has a driver or is animated"
+    socket.driver_remove("default_value")
+    socket.keyframe_insert("default_value", frame=1)
+    assert obstacle(found_nodes([material])[0]) == f"{label} has a driver or is animated"
+    tree.animation_data_clear()
+    value = tree.nodes.new("ShaderNodeValue")
+    tree.links.new(value.outputs[0], socket)
+    assert obstacle(found_nodes([material])[0]) == f"{label} is linked"
+
+
+def test_bounce_only_is_left_alone(empty_file) -> None:
+    material = new_material("DIFFUSE", "Study", BounceOnly=2)
+    assert obstacle(found_nodes([material])[0]) == "Bounce Only shows one bounce, for study"
+
+
+def test_metals_by_index_have_its_reflectance(empty_file) -> None:
+    values = {"Fresnel": 1, "IOR": (0.2, 0.92, 1.1), "Extinction": (3.91, 2.45, 2.14)}
+    surface, _ = read_surface(found_nodes([new_material("CONDUCTOR", "Copper", **values)])[0])
+    assert surface.colour[0] > 0.93
+    assert surface.colour[2] < 0.6
+
+
+def test_intervals() -> None:
+    assert OPERATIONS["DIVIDE"]((1.0, 2.0), (-1.0, 1.0), None) == ANYTHING
+    assert OPERATIONS["DIVIDE"]((1.0, 2.0), (2.0, 4.0), None) == (0.25, 1.0)
+    assert OPERATIONS["POWER"]((-1.0, 2.0), (2.0, 2.0), None) == ANYTHING
+    assert OPERATIONS["ABSOLUTE"]((-3.0, 2.0), None, None) == (0.0, 3.0)
+    assert OPERATIONS["MULTIPLY"](ANYTHING, (0.0, 0.0), None) == (0.0, 0.0)
+    assert corners(math.sqrt, (-1.0, 4.0)) == ANYTHING
+    assert mapped((0.0, 1.0), (1.0, 1.0), (0.3, 0.6), clamp=True) == (0.3, 0.3)
+
+
+def test_shares_are_the_picture(empty_file) -> None:
+    """A unit sphere fills pi / 2.1^2 of the fixtures' picture."""
+    import bpy
+
+    scene = common.start_scene((64, 64), 1)
+    common.add_front_camera(scene)
+    material = new_material("CONDUCTOR", "Ball")
+    common.add_unit_sphere(material)
+    found = picture_shares(bpy.context, lambda material: False)
+    assert found.by_name["Ball"] == pytest.approx(math.pi / 2.1**2, rel=0.03)
+    assert shown_materials(bpy.context) == [material]
+    scene.camera.data.type = "PERSP"
+    scene.camera.data.angle = 2.0 * math.atan(1.05 / 5.0)
+    found = picture_shares(bpy.context, lambda material: False)
+    assert found.by_name["Ball"] == pytest.approx(math.pi / 2.1**2, rel=0.06)
+
+
+def test_rays_pass_through_glass_and_what_is_not_rendered(empty_file) -> None:
+    import bpy
+
+    _, sphere = small_scene(osl=True)
+    sphere.data.materials.append(new_material("CONDUCTOR", "Ball"))
+    bpy.ops.mesh.primitive_plane_add(size=20, location=(0, -2, 0), rotation=(math.pi / 2, 0, 0))
+    pane = bpy.context.object
+    pane.data.materials.append(new_material("DIELECTRIC", "Pane"))
+
+    def names(clear: bool) -> dict[str, float]:
+        return picture_shares(bpy.context, lambda material: clear).by_name
+
+    assert names(clear=False) == {"Pane": 1.0}
+    through = names(clear=True)
+    assert through["Pane"] == 1.0
+    assert 0.02 < through["Ball"] < 0.9
+    pane.hide_render = True
+    assert set(names(clear=False)) == {"Ball"}
+    assert [material.name for material in shown_materials(bpy.context)] == ["Ball"]
+    pane.hide_render, pane.visible_camera = False, False
+    assert set(names(clear=False)) == {"Ball"}
+    pane.visible_camera = True
+    collection = bpy.data.collections.new("Hidden")
+    bpy.context.scene.collection.children.link(collection)
+    bpy.context.scene.collection.objects.unlink(pane)
+    collection.objects.link(pane)
+    assert set(names(clear=False)) == {"Pane"}
+    collection.hide_render = True
+    assert set(names(clear=False)) == {"Ball"}
+    assert [material.name for material in shown_materials(bpy.context)] == ["Ball"]
+
+
+def test_instances_and_faces_have_their_materials(empty_file) -> None:
+    """A collection instance of a cube whose faces have two materials."""
+    import bpy
+
+    scene = common.start_scene((64, 64), 1)
+    common.add_front_camera(scene)
+    mesh = bpy.data.meshes.new("Tiles")
+    mesh.from_pydata(
+        [(-1, 0, -1), (0, 0, -1), (0, 0, 1), (-1, 0, 1), (1, 0, -1), (1, 0, 1)],
+        [],
+        [(0, 1, 2, 3), (1, 4, 5, 2)],
+    )
+    for kind in ("CONDUCTOR", "DIFFUSE"):
+        mesh.materials.append(new_material(kind, kind))
+    mesh.polygons[1].material_index = 1
+    collection = bpy.data.collections.new("Set")
+    collection.objects.link(bpy.data.objects.new("Tiles", mesh))
+    holder = common.add_object("Holder", None)
+    holder.instance_type, holder.instance_collection = "COLLECTION", collection
+    found = picture_shares(bpy.context, lambda material: False).by_name
+    half = 2.0 / 2.1**2
+    assert found == pytest.approx({"CONDUCTOR": half, "DIFFUSE": half}, rel=0.05)
+    assert {m.name for m in shown_materials(bpy.context)} == {"CONDUCTOR", "DIFFUSE"}
+
+
+def test_without_a_camera_all_weigh_the_same(empty_file) -> None:
+    import bpy
+
+    found = picture_shares(bpy.context, lambda material: False)
+    assert not found.has_camera
+    assert found.of([], 4) == 0.25
+    assert Shares({}).of([], 4) == SMALLEST_SHARE
+
+
+def test_every_kind_is_read_from_the_file(empty_file) -> None:
+    materials = [new_material(kind, kind) for kind in KINDS]
+    assert {found.kind.identifier for found in found_nodes(materials)} == set(KINDS)

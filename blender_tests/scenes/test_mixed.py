@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The analysis keeps what it promises on a small scene of mixed materials."""
+
+import bpy
+import numpy as np
+import pytest
+
+from addon.core.analysis import Choice
+from addon.nodes.analyse import analyse, apply
+from addon.nodes.inspect import found_nodes, read_choice
+from addon.nodes.share import shown_materials
+from scenes import mixed, mixed_demo
+from tools.timing import time_samples
+
+COUNT, SIZE = 6, (48, 32)
+TOLERANCE = 0.03
+
+
+def test_the_measured_error_is_within_the_tolerance(report) -> None:
+    """That of the converged picture against Exact, of two renders each; so is what is predicted."""
+    mixed.build(COUNT, SIZE)
+    found = mixed_demo.Scene(TOLERANCE)
+    predicted = found.predicted(mixed_demo.ANALYSED)
+    assert 0.0 < predicted <= TOLERANCE
+    wanted = found.pictures("Exact", 768, first_seed=100)
+    error, spread = mixed_demo.difference(
+        found.pictures(mixed_demo.ANALYSED, 192, first_seed=0), wanted
+    )
+    value = f"{error:.2%} +- {spread:.2%}, predicted {predicted:.2%}"
+    report("analysed scene of six materials, error", value, f"{TOLERANCE:.0%}")
+    assert error + 2.0 * spread < TOLERANCE
+    assert spread < 0.5 * TOLERANCE
+    # What it would be without the further bounces, so that the test can fail.
+    lost, _ = mixed_demo.difference(found.pictures("Single", 192, first_seed=0), wanted)
+    assert lost > TOLERANCE
+
+
+@pytest.mark.timing
+def test_it_takes_less_time_than_walk(report) -> None:
+    mixed.build(COUNT, SIZE)
+    found = mixed_demo.Scene(TOLERANCE)
+    switches = {v: lambda v=v: found.switch(v) for v in ("Walk", mixed_demo.ANALYSED)}
+    times = time_samples(bpy.context.scene, switches, samples=48, rounds=3)
+    ratio = times.ratio(mixed_demo.ANALYSED, "Walk")
+    report("analysed scene of six materials, time of a sample over Walk's", f"{ratio:.2f}", "0.9")
+    assert ratio < 0.9
+
+
+def test_twenty_materials_of_all_kinds() -> None:
+    """All are found and seen alike; what is applied proposes nothing more."""
+    mixed.build()
+    found = found_nodes(shown_materials(bpy.context))
+    assert len(found) == len(mixed.RECIPES) == 20
+    assert {one.kind.identifier for one in found} == {"CONDUCTOR", "DIELECTRIC", "DIFFUSE"}
+    first = analyse(bpy.context, 0.01)
+    shares = [row.proposal.share for row in first.rows]
+    assert np.ptp(shares) < 0.2 * np.mean(shares)
+    assert not any(row.notes for row in first.rows)
+    done, left = apply(bpy.context, first)
+    assert len(done) == len(first.changes)
+    assert left == []
+    assert analyse(bpy.context, 0.01).changes == ()
+
+
+def test_a_texture_gives_the_range_of_its_roughness() -> None:
+    mixed.build()
+    rows = {row.name: row.proposal for row in analyse(bpy.context, 0.01).rows}
+    assert rows["Worn Nickel"].reason.startswith("alpha 0.04 to 0.56:")
+    assert read_choice(found_nodes([bpy.data.materials["Clay"]])[0]) == Choice("Fitted", 16)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is missing from a sphere whose light ends after n bounces, by the oracle."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from blender_tests.oracle import (
+    BECKMANN,
+    CORRELATED,
+    GGX,
+    HEIGHT_TRACKED,
+    UNCORRELATED,
+    Conductor,
+    Diffuse,
+    Surface,
+    energies,
+    evaluate,
+    sphere,
+)
+from blender_tests.oracle.balanced import BalancedDielectric
+from blender_tests.oracle.materials import Material
+from blender_tests.oracle.view import to_local
+
+SEED = 1
+WALKS = 2000  # at each point: the largest entries then are within 2 % of themselves
+ALPHAS = (0.02, 0.05, 0.1, 0.15, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0)
+INDICES = (1.05, 1.5, 2.5)  # of glass
+DISTRIBUTIONS = (GGX, BECKMANN)
+MODELS = (CORRELATED, UNCORRELATED, HEIGHT_TRACKED)
+BOUNCES = 24
+SMALLEST = 5e-5  # entries below are left out
+
+_RESOLUTION = 16  # points of the sphere across the picture
+# Nearer to the horizon an opaque surface sends next to nothing, and walks find it by chance.
+_LOWEST_SUN = 0.02
+_SUN, _BACK = sphere.FRONT_SUN, sphere.BACK_SUN
+
+
+def rows() -> Iterator[dict]:
+    """Measure the surfaces of each kind, distribution and model (and index, of glass) by alpha.
+
+    `after` has at each of ALPHAS what is missing after bounce 1, 2, ..., as left_out() returns it.
+    """
+    materials: list[tuple[str, float, Material]] = [
+        ("CONDUCTOR", 0.0, Conductor()),
+        ("DIFFUSE", 0.0, Diffuse()),
+        *(("DIELECTRIC", ior, BalancedDielectric(ior)) for ior in INDICES),
+    ]
+    for kind, ior, material in materials:
+        for number, model in enumerate(MODELS):
+            for distribution in DISTRIBUTIONS:
+                surfaces = [Surface(a, a, distribution, material, model) for a in ALPHAS]
+                yield {
+                    "kind": kind,
+                    "distribution": distribution,
+                    "model": number,
+                    "ior": ior,
+                    "after": [left_out(surface) for surface in surfaces],
+                }
+
+
+def left_out(surface: Surface, walks: int = WALKS, seed: int = SEED) -> tuple[float, ...]:
+    """Return what is missing after bounce 1, 2, ..., down to SMALLEST: image L2 over that of all
+    bounces, where facets absorb nothing.
+
+    It is the most of several pictures of a sphere: under the sun and in a uniform world; of glass
+    also with the sun behind, and seen from inside the solid. Of coloured facets what is missing
+    follows by powers of their colour.
+    """
+    glass = surface.material.transmits
+    pictures = [
+        light(surface, sun, inside, walks, seed)
+        for sun, inside in ((_SUN, False), (None, False), (_BACK, False), (_BACK, True))
+        if glass or sun is not _BACK
+    ]
+    norms = np.max([missing(picture) for picture in pictures], axis=0)
+    return tuple(float(norm) for norm in norms[norms > SMALLEST])
+
+
+def light(
+    surface: Surface, sun: np.ndarray | None, inside: bool, walks: int, seed: int
+) -> np.ndarray:
+    """Return the light of every bounce at points of the sphere that are even in the picture,
+    ``(BOUNCES, n, 3)``; without a ``sun`` that of a uniform world."""
+    points, mask = sphere.sphere_points(_RESOLUTION, 1)
+    normals = points[mask].reshape(-1, 3)
+    axes = sphere.local_frames(-normals if inside else normals)
+    wi = to_local(sphere.VIEW_DIRECTION, axes)
+    if sun is None:
+        return energies(wi, surface, BOUNCES, walks, seed).both.mean
+    wo = to_local(sun, axes)
+    if not surface.material.transmits:
+        lit = wo[:, 2] > _LOWEST_SUN
+        wi, wo = wi[lit], wo[lit]
+    return evaluate(wi, wo, surface, BOUNCES, walks, seed).mean
+
+
+def missing(picture: np.ndarray) -> list[float]:
+    """Return what `light` lacks after bounce 1, 2, ..., over all of it."""
+    whole = np.linalg.norm(picture.sum(axis=0))
+    return [float(np.linalg.norm(picture[k:].sum(axis=0)) / whole) for k in range(1, BOUNCES)]
