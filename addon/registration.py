@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import bpy
 
+from . import command
 from .ops import material, node, osl
 from .ui import menus, panels
 
@@ -17,6 +18,7 @@ _MODULES = (
     node,
     menus,
     panels,
+    command,
 )
 
 # What undoes the registration, in the order in which it was done.
