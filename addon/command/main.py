@@ -10,10 +10,10 @@ import argparse
 import sys
 
 from ..core import VERSION
-from . import check
+from . import check, cost
 from .output import CommandError, emit_error, reserved_output
 
-SUBCOMMANDS = (check,)
+SUBCOMMANDS = (check, cost)
 
 PROGRAM = "blender FILE --command microbounce"
 
