@@ -13,6 +13,7 @@ from .ops import (
     analyse,
     check,
     convert,
+    cost,
     farm,
     library,
     material,
@@ -25,6 +26,7 @@ from .ops import (
 from .ui import analyse as analysis_panels
 from .ui import check as check_panels
 from .ui import convert as convert_panel
+from .ui import cost as cost_panels
 from .ui import farm as farm_panels
 from .ui import handlers, menus, panels, preferences
 from .ui import presets as preset_panels
@@ -41,6 +43,7 @@ _MODULES = (
     check,
     farm,
     analyse,
+    cost,
     preferences,
     menus,
     panels,
@@ -48,6 +51,7 @@ _MODULES = (
     convert_panel,
     check_panels,
     analysis_panels,
+    cost_panels,
     farm_panels,
     handlers,
     command,

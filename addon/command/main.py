@@ -11,10 +11,10 @@ import sys
 import traceback
 
 from ..core import VERSION
-from . import analyse, apply, check, convert, preset, presets, update
+from . import analyse, apply, check, convert, cost, preset, presets, update
 from .output import CommandError, emit_error, reserved_output
 
-SUBCOMMANDS = (check, analyse, apply, presets, preset, convert, update)
+SUBCOMMANDS = (check, analyse, apply, cost, presets, preset, convert, update)
 
 PROGRAM = "blender FILE --command microbounce"
 

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tests of the measured cost share: made-up measurements, a tiny scene, a full dump."""
+
+import bpy
+import numpy as np
+
+from addon.core.cost.page import Pictures
+from addon.core.cost.results import Cost, Measured, Report, Setting
+from addon.core.cost.statistics import ErrorSplit
+from blender_tests.addon.support import small_scene
+
+# Deeper than any setting lies in a data-block.
+_DEPTH = 4
+
+
+def measured(key, seconds=1.0, bias=0.0, noise=0.1, se=1e-5, family="step", memory=11.0):
+    """Return a made-up measurement of 16 samples that take `seconds`."""
+    times = (seconds / 16,) * 3
+    cost = Cost(times, times, (0.5,) * 3, memory)
+    split = ErrorSplit(bias**2, se, noise)
+    return Measured(key, key.title(), family, 16, cost, split, 0.05)
+
+
+def report(*variants, error=0.02, **changes):
+    """Return a report of made-up measurements."""
+    setting = {
+        "file": "a<b.blend",
+        "scene": "Scene",
+        "frame": 3,
+        "width": 24,
+        "height": 16,
+        "samples": 16,
+        "rounds": 3,
+        "error": error,
+        "reference": "Walk",
+        "reference_samples": 256,
+        "reference_noise": 0.01,
+        "reference_kept": False,
+        "date": "2026-01-01T00:00:00+00:00",
+        "hardware": {"Processor": "A & B", "Threads": "2"},
+        "memory_source": "Cycles",
+        "notes": ("A note.",),
+    } | changes
+    return Report(Setting(**setting), variants, "A sentence.", {"page": "cost.html"})
+
+
+def noisy_pictures(variants, width=24, height=16):
+    """Return a reference and what a page shows of each variant, all of it noise."""
+    random = np.random.default_rng(1)
+    size = (height, width)
+    shown = {
+        v.key: Pictures(random.random((*size, 3)), random.random(size) - 0.5, random.random(size))
+        for v in variants
+    }
+    return random.random((*size, 3)), shown
+
+
+def tiny_scene(path=None, osl=True):
+    """Make a scene of 24 pixels with a sphere of ours; save it where a path is given."""
+    from addon.nodes.group import new_material
+
+    scene, sphere = small_scene(osl=osl)
+    scene.render.resolution_x = scene.render.resolution_y = 24
+    sphere.data.materials.append(new_material("CONDUCTOR", "Ours", Roughness=0.9))
+    if path is not None:
+        bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return scene
+
+
+def dump():
+    """Return all plain values of all data-blocks, by where they are."""
+    found = {"filepath": bpy.data.filepath}
+    for collection in bpy.data.bl_rna.properties:
+        if collection.type == "COLLECTION":
+            for data in getattr(bpy.data, collection.identifier):
+                _dump(data, f"{collection.identifier}.{data.name_full}", found, _DEPTH)
+    return found
+
+
+def _dump(struct, where, found, depth):
+    for prop in struct.bl_rna.properties:
+        name = prop.identifier
+        # Windows and previews are no part of the file's content; deprecated ones warn.
+        if name in ("rna_type", "preview") or getattr(prop, "is_deprecated", False):
+            continue
+        value = getattr(struct, name, None)
+        if prop.type == "POINTER":
+            if isinstance(value, bpy.types.ID) and not value.is_embedded_data:
+                found[f"{where}.{name}"] = value.name_full
+            elif value is not None and depth:
+                _dump(value, f"{where}.{name}", found, depth - 1)
+        elif prop.type == "COLLECTION":
+            for number, item in enumerate(value if depth and value is not None else ()):
+                if isinstance(item, bpy.types.ID):
+                    found[f"{where}.{name}[{number}]"] = item.name_full
+                else:
+                    _dump(item, f"{where}.{name}[{number}]", found, depth - 1)
+        else:
+            plain = tuple(value) if getattr(prop, "is_array", False) else value
+            found[f"{where}.{name}"] = repr(plain)
