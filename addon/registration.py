@@ -8,15 +8,21 @@ from collections.abc import Callable
 
 import bpy
 
+from . import command
+from .ops import cost as cost_ops
 from .ops import material, node, osl
+from .ui import cost as cost_panels
 from .ui import menus, panels
 
 _MODULES = (
     osl,
     material,
     node,
+    cost_ops,
     menus,
     panels,
+    cost_panels,
+    command,
 )
 
 # What undoes the registration, in the order in which it was done.

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the parameter list of a compiled shader (.oso text).
+"""Reads compiled shaders (.oso text): the parameter list, and whether two are the same program.
 
 Cycles' own way needs the `oslquery` module, which not every Blender can import.
 """
 
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .parameter import Parameter
@@ -16,6 +18,10 @@ _KIND_TYPES = {
     "NORMAL": ("normal",),
     "TANGENT": ("vector", "normal"),
 }
+
+# What the compiler tells about a line: source lines, metadata, where a symbol is read and written.
+_HINT = re.compile(r"\s%\w+(\{[^}]*\})?")
+_SYMBOLS = ("local", "temp", "const", "global")
 
 
 @dataclass(frozen=True)
@@ -74,3 +80,35 @@ def check_against(parameters: tuple[Parameter, ...], bytecode: str) -> None:
                 f"The shader declares {name} as {type_name}; the extension expects "
                 f"{' or '.join(_KIND_TYPES[parameter.kind])}. Reinstall the extension"
             )
+
+
+def same_program(first: str, second: str) -> bool:
+    """Return whether two compiled shaders have the same interface and do the same, step by step.
+
+    Comments, metadata, source lines and the names of variables do not count: compilers of
+    different versions number them differently.
+    """
+    return first == second or list(_program(first)) == list(_program(second))
+
+
+def _program(bytecode: str) -> Iterator[list[str]]:
+    """Yield the program's lines in words, variables numbered in the order of their first use.
+
+    Before that first use stands the declaration without the name: type, and value of a constant.
+    """
+    declared: dict[str, str] = {}
+    numbers: dict[str, str] = {}
+    for line in bytecode.splitlines():
+        words = _HINT.sub("", line).split()
+        if not words or words[0].startswith("#"):
+            continue
+        if words[0] in _SYMBOLS:
+            place = 3 if words[1] == "closure" else 2
+            name = words.pop(place)
+            declared[name] = " ".join(words)
+            continue
+        for word in words:
+            if word in declared and word not in numbers:
+                numbers[word] = f"${len(numbers)}"
+                yield [numbers[word], declared[word]]
+        yield [numbers.get(word, word) for word in words]

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which variants of a scene are rendered to measure what accuracy costs, and how often."""
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+
+from ..kinds import KINDS
+from ..parameter import Parameter
+
+# The same of all kinds.
+_PARAMETERS = KINDS["CONDUCTOR"].by_identifier
+STEPS = _PARAMETERS["Quality"].choices
+
+REFERENCES = ("WALK", "EXACT")
+# What the references override. Walk has less bias the narrower its lobes are.
+_REFERENCE_SETTINGS = {
+    "WALK": {"Quality": "Walk", "Walks": 16, "Kernel": 0.15, "MaxBounces": 64, "Tolerance": 0.0},
+    "EXACT": {"Quality": "Exact", "MaxBounces": 64, "Tolerance": 0.0},
+}
+REFERENCE_TITLES = {
+    "WALK": "Walk with 16 walks and a kernel of 0.15",
+    "EXACT": "Exact",
+}
+# Where nothing else is asked, the reference has this many times the samples of a variant.
+REFERENCE_FACTOR = 16
+
+
+class PlanError(ValueError):
+    """An option that makes no sense; the message names its value and the remedy."""
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One way to render the scene's materials.
+
+    key      -- its name in files
+    title    -- its name for people
+    family   -- "step", "bounces", "walks", "kernel" or "cycles"
+    settings -- the parameters that it overrides, by identifier
+    native   -- whether Cycles' own closures take the place of ours
+    osl      -- whether Open Shading Language is on
+    """
+
+    key: str
+    title: str
+    family: str
+    settings: dict[str, object] = field(default_factory=dict)
+    native: bool = False
+    osl: bool = True
+
+
+@dataclass(frozen=True)
+class Options:
+    """What is asked for. Raises PlanError for what makes no sense.
+
+    samples           -- of a picture, 2 or more; 0 means the scene's
+    percentage        -- of the scene's width and height, 1 to 100; 0 means the scene's
+    steps             -- of the ladder, out of STEPS
+    bounces           -- limits of the bounces on the microsurface, in Walk
+    walks, kernels    -- numbers of walks and radii of the lobe, in Walk
+    baselines         -- whether Cycles' own closures are rendered, with OSL on and off
+    rounds            -- how often each is rendered and timed, 2 or more, each with its own seed
+    reference         -- "WALK", or "EXACT" for scenes all of whose lights a path can hit
+    reference_samples -- of the reference, 4 or more; 0 means REFERENCE_FACTOR times a variant's
+    error             -- target that the times to an error are for, relative, above 0
+    region            -- x0, y0, x1, y1 in parts of the picture from its lower left corner;
+                         None means the scene's render border, if it has one
+    """
+
+    samples: int = 64
+    percentage: int = 50
+    steps: tuple[str, ...] = STEPS
+    bounces: tuple[int, ...] = (1, 2, 4, 8, 16)
+    walks: tuple[int, ...] = ()
+    kernels: tuple[float, ...] = ()
+    baselines: bool = True
+    rounds: int = 3
+    reference: str = "WALK"
+    reference_samples: int = 0
+    error: float = 0.02
+    region: tuple[float, float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        _check(self.samples == 0 or self.samples >= 2, "samples", self.samples, "2 or more")
+        _check(0 <= self.percentage <= 100, "percentage", self.percentage, "1 to 100")
+        _check(self.rounds >= 2, "rounds", self.rounds, "2 or more: one picture shows no noise")
+        enough = self.reference_samples == 0 or self.reference_samples >= 4
+        _check(enough, "reference samples", self.reference_samples, "4 or more")
+        _check(0.0 < self.error < 1.0, "error", self.error, "a part above 0 and below 1")
+        _check(self.reference in REFERENCES, "reference", self.reference, "WALK or EXACT")
+        for step in self.steps:
+            _check(step in STEPS, "step", step, ", ".join(STEPS))
+        for name, values in (
+            ("MaxBounces", self.bounces),
+            ("Walks", self.walks),
+            ("Kernel", self.kernels),
+        ):
+            for value in values:
+                _checked(_PARAMETERS[name], value)
+        if self.region is not None:
+            x0, y0, x1, y1 = self.region
+            inside = 0.0 <= x0 < x1 <= 1.0 and 0.0 <= y0 < y1 <= 1.0
+            _check(inside, "region", self.region, "0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1")
+        if not planned_variants(self):
+            raise PlanError("Nothing is to be rendered: choose a step or Cycles' own closures")
+
+    def as_dict(self) -> dict[str, object]:
+        """Return the options as JSON takes them."""
+        return asdict(self)
+
+    @classmethod
+    def from_dict(cls, data: dict[str, object]) -> "Options":
+        """Return the options that as_dict() gave."""
+        return cls(
+            **{
+                key: tuple(value) if isinstance(value, list) else value
+                for key, value in data.items()
+            }
+        )
+
+
+def planned_variants(options: Options) -> list[Variant]:
+    """Return what is rendered, each once, the ladder's steps first."""
+    variants = [Variant(step.lower(), step, "step", {"Quality": step}) for step in options.steps]
+    for family, identifier, values, title in (
+        ("bounces", "MaxBounces", options.bounces, "Walk, {:d} bounces"),
+        ("walks", "Walks", options.walks, "Walk, {:d} walks"),
+        ("kernel", "Kernel", options.kernels, "Walk, kernel {:g}"),
+    ):
+        for value in dict.fromkeys(values):
+            name = title.format(value)
+            if value == 1:
+                name = name.removesuffix("s")
+            settings = {"Quality": "Walk", identifier: value}
+            variants.append(Variant(f"{family}_{value:g}", name, family, settings))
+    if options.baselines:
+        variants.append(Variant("cycles_osl", "Cycles' own, OSL on", "cycles", native=True))
+        variants.append(
+            Variant("cycles_svm", "Cycles' own, OSL off", "cycles", native=True, osl=False)
+        )
+    return variants
+
+
+def reference_variant(reference: str) -> Variant:
+    """Return what "WALK" or "EXACT" stands for as a reference."""
+    title = REFERENCE_TITLES[reference]
+    return Variant("reference", title, "reference", _REFERENCE_SETTINGS[reference])
+
+
+def parse_numbers(text: str, number: type = int) -> tuple:
+    """Return the numbers in a text such as "1, 2, 4"; "" and "none" give none.
+
+    Raises PlanError for what is no number.
+    """
+    words = [] if text.strip().lower() == "none" else text.replace(",", " ").split()
+    return tuple(_parsed(word, number) for word in words)
+
+
+def parse_steps(text: str) -> tuple[str, ...]:
+    """Return the steps named in a text such as "fitted, walk", in the ladder's order.
+
+    Raises PlanError for a name that there is not.
+    """
+    words = [] if text.strip().lower() == "none" else text.replace(",", " ").split()
+    named = {word.title() for word in words}
+    for word in named:
+        _check(word in STEPS, "step", word, ", ".join(STEPS))
+    return tuple(step for step in STEPS if step in named)
+
+
+def parse_region(text: str) -> tuple[float, float, float, float]:
+    """Return the four parts in a text such as "0.2,0.2,0.8,0.8". Raises PlanError."""
+    parts = parse_numbers(text, float)
+    _check(len(parts) == 4, "region", text, "four numbers x0,y0,x1,y1 from 0 to 1")
+    return parts
+
+
+def listed(values: Iterable[object]) -> str:
+    """Return values as parse_numbers() and parse_steps() read them."""
+    return ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
+
+
+def _parsed(word: str, number: type) -> float:
+    try:
+        return number(word)
+    except ValueError:
+        noun = "whole numbers" if number is int else "numbers"
+        raise PlanError(f"{word!r} is no number: give {noun} such as 1, 2, 4") from None
+
+
+def _checked(parameter: Parameter, value: object) -> None:
+    try:
+        parameter.checked(value)
+    except (TypeError, ValueError) as error:
+        raise PlanError(str(error)) from None
+
+
+def _check(right: bool, name: str, value: object, remedy: str) -> None:
+    if not right:
+        raise PlanError(f"The {name} is {value}: give {remedy}")

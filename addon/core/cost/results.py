@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was measured of each variant, and what follows from it."""
+
+import math
+import statistics
+from dataclasses import asdict, dataclass, field
+
+from .statistics import ErrorSplit, error_after, samples_to_error
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What rendering took; lists have one figure a round.
+
+    wall, processor -- seconds per sample, the start of the render taken off; processor time is
+                       that of all threads together
+    start           -- seconds that a render takes before its samples
+    memory          -- most megabytes that were in use, None where that is not told
+    """
+
+    wall: tuple[float, ...]
+    processor: tuple[float, ...]
+    start: tuple[float, ...]
+    memory: float | None = None
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A variant with its cost and its errors at `samples` samples; FLIP is the picture's mean."""
+
+    key: str
+    title: str
+    family: str
+    samples: int
+    cost: Cost
+    split: ErrorSplit
+    flip: float
+
+    @property
+    def per_sample(self) -> float:
+        """Median seconds of a sample."""
+        return statistics.median(self.cost.wall)
+
+    @property
+    def seconds(self) -> float:
+        """Seconds of all samples, without the start."""
+        return self.per_sample * self.samples
+
+    @property
+    def processor_seconds(self) -> float:
+        """Seconds of all samples on all threads together."""
+        return statistics.median(self.cost.processor) * self.samples
+
+    @property
+    def error(self) -> float:
+        """Bias and noise together."""
+        return error_after(self.split, 1.0)
+
+    def seconds_to(self, error: float) -> float:
+        """Return the seconds to a relative error, infinite where the bias is above it."""
+        return self.per_sample * samples_to_error(self.split, self.samples, error)
+
+    def error_at(self, seconds: float) -> float:
+        """Return the error after so many seconds."""
+        return error_after(self.split, seconds / self.seconds)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Where and how it was measured; what the reports tell besides the figures.
+
+    seconds and errors of the variants are at `samples` samples and at this size in pixels.
+    """
+
+    file: str
+    scene: str
+    frame: int
+    width: int
+    height: int
+    samples: int
+    rounds: int
+    error: float
+    reference: str
+    reference_samples: int
+    reference_noise: float
+    reference_kept: bool
+    date: str
+    hardware: dict[str, str]
+    memory_source: str
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Report:
+    """All of a measurement. `files` are the reports that were written, by what they are."""
+
+    setting: Setting
+    variants: tuple[Measured, ...]
+    sentence: str
+    files: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def equal_time(self) -> float:
+        """Seconds at which errors are compared: those of Fitted, else of the first variant."""
+        chosen = next((v for v in self.variants if v.key == "fitted"), self.variants[0])
+        return chosen.seconds
+
+    def ranked(self) -> list[Measured]:
+        """Return the variants, the soonest at the target error first, then by their errors."""
+        error, time = self.setting.error, self.equal_time
+        return sorted(self.variants, key=lambda v: (v.seconds_to(error), v.error_at(time)))
+
+    def rows(self) -> list[dict[str, object]]:
+        """Return a row of plain values for each variant; None stands for never and not measured."""
+        return [self._row(variant) for variant in self.ranked()]
+
+    def as_dict(self) -> dict[str, object]:
+        """Return all of it as JSON takes it."""
+        return {
+            "sentence": self.sentence,
+            "setting": asdict(self.setting),
+            "equal_time": self.equal_time,
+            "variants": self.rows(),
+            "files": self.files,
+        }
+
+    def _row(self, variant: Measured) -> dict[str, object]:
+        reached = variant.seconds_to(self.setting.error)
+        return {
+            "key": variant.key,
+            "variant": variant.title,
+            "family": variant.family,
+            "samples": variant.samples,
+            "seconds": variant.seconds,
+            "processor_seconds": variant.processor_seconds,
+            "seconds_per_sample": list(variant.cost.wall),
+            "start_seconds": statistics.median(variant.cost.start),
+            "noise": variant.split.noise,
+            "bias": variant.split.bias,
+            "bias_se": variant.split.bias_se,
+            "bias_resolved": variant.split.resolved,
+            "bias_resolution": variant.split.resolution,
+            "error": variant.error,
+            "seconds_to_error": reached if math.isfinite(reached) else None,
+            "error_at_equal_time": variant.error_at(self.equal_time),
+            "flip": variant.flip,
+            "memory_mb": variant.cost.memory,
+        }

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A report as CSV, as JSON, and as a table of text."""
+
+import csv
+import io
+import json
+
+from .advice import bias_text, duration, seconds
+from .results import Measured, Report
+
+
+def to_json(report: Report) -> str:
+    """Return all of a report; what is never reached or was not measured is null."""
+    return json.dumps(report.as_dict(), indent=2, allow_nan=False) + "\n"
+
+
+def to_csv(report: Report) -> str:
+    """Return a line for each variant; what is never reached or was not measured is empty.
+
+    Seconds per sample are those of all rounds with spaces between.
+    """
+    stream = io.StringIO()
+    rows = report.rows()
+    writer = csv.DictWriter(stream, rows[0])
+    writer.writeheader()
+    for row in rows:
+        times = " ".join(f"{time:.6g}" for time in row["seconds_per_sample"])
+        writer.writerow(row | {"seconds_per_sample": times})
+    return stream.getvalue()
+
+
+def headings(report: Report) -> tuple[str, ...]:
+    """Return what heads the columns of cells()."""
+    return (
+        "Variant",
+        f"Time to {100 * report.setting.error:g} %",
+        f"Error at {duration(report.equal_time)}",
+        "Bias",
+        "Noise",
+        "Time",
+        "Processor",
+        "Start",
+        "FLIP",
+        "Memory",
+    )
+
+
+def cells(report: Report, variant: Measured) -> tuple[str, ...]:
+    """Return what a table shows of a variant."""
+    row = next(row for row in report.rows() if row["key"] == variant.key)
+    memory = row["memory_mb"]
+    return (
+        variant.title,
+        seconds(variant, report.setting.error),
+        f"{100 * row['error_at_equal_time']:.2f} %",
+        bias_text(variant),
+        f"{100 * row['noise']:.2f} %",
+        duration(row["seconds"]),
+        duration(row["processor_seconds"]),
+        duration(row["start_seconds"]),
+        f"{row['flip']:.3f}",
+        "not measured" if memory is None else f"{memory:.0f} MB",
+    )
+
+
+def sort_keys(report: Report, variant: Measured) -> tuple[object, ...]:
+    """Return what the columns of cells() are sorted by; None comes last."""
+    row = next(row for row in report.rows() if row["key"] == variant.key)
+    names = ("variant", "seconds_to_error", "error_at_equal_time", "bias", "noise", "seconds")
+    more = ("processor_seconds", "start_seconds", "flip", "memory_mb")
+    return tuple(row[name] for name in (*names, *more))
+
+
+def to_text(report: Report) -> str:
+    """Return the table and the sentence in plain text."""
+    rows = [headings(report), *(cells(report, variant) for variant in report.ranked())]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = []
+    for row in rows:
+        rest = (cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True))
+        lines.append("  ".join([row[0].ljust(widths[0]), *rest]))
+    return "\n".join([*lines, "", report.sentence, *report.setting.notes, ""])

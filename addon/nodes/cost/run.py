@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Starts a measurement in a Blender of its own, follows it, and takes its report."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from ...core.cost.plan import Options
+from ...core.lamps import exact_warning
+from ...ops.exact import enabled_lamps
+from ..script import osl_compiler_available
+from .reference_cache import cache_file
+from .renderer import placed_nodes
+
+OUTPUT = "//microbounce_cost"
+IMAGE = "Microbounce Cost"
+_POLL_SECONDS = 0.1
+
+
+class CostError(RuntimeError):
+    """The measurement cannot be made or failed; the message says why and what to do."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a measurement is.
+
+    part -- from 0 to 1
+    text -- what is rendered
+    left -- seconds that remain, None where nothing tells yet
+    """
+
+    part: float = 0.0
+    text: str = "Starting"
+    left: float | None = None
+
+
+class CostRun:
+    """A measurement that is under way; close() it whatever happens, or use it with `with`."""
+
+    def __init__(
+        self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer, options: Options, output: str
+    ) -> None:
+        """Check everything, save a copy of the file and start.
+
+        `output` is the folder for the reports, where "//" means beside the file. Raises CostError.
+        """
+        check_scene(scene)
+        folder = output_folder(output)
+        kept = cache_file(scene, layer.name, options)
+        notes = _notes(scene, layer, options, kept)
+        self._process: subprocess.Popen | None = None
+        try:
+            self._folder = Path(tempfile.mkdtemp(prefix="microbounce_cost_"))
+        except OSError as error:
+            raise CostError(f"No folder for temporary files: {error}. Make room") from error
+        try:
+            job = {
+                "copy": _saved_copy(self._folder),
+                "file": bpy.path.basename(bpy.data.filepath) or "a file that was never saved",
+                "scene": scene.name,
+                "view_layer": layer.name,
+                "options": options.as_dict(),
+                "cache": kept,
+                "output": str(folder),
+                "notes": notes,
+                "use_scripts": bpy.context.preferences.filepaths.use_scripts_auto_execute,
+            }
+            self._start(job)
+            self._report = folder / "cost.json"
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self) -> "CostRun":
+        """Return itself."""
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """End it, if it has not ended."""
+        self.close()
+
+    @property
+    def running(self) -> bool:
+        """Whether the other Blender is at work."""
+        return self._process is not None and self._process.poll() is None
+
+    def progress(self) -> Progress:
+        """Return how far it is."""
+        try:
+            lines = (self._folder / "progress").read_text("utf-8").splitlines()
+            return Progress(**json.loads(lines[-1]))
+        except (OSError, IndexError, ValueError):  # not begun, or a line that is half written
+            return Progress()
+
+    def result(self) -> dict[str, object]:
+        """Return the report, as Report.as_dict() has it, once it does not run any more.
+
+        Raises CostError where it failed.
+        """
+        if self._process.returncode != 0:
+            raise CostError(f"The measurement failed. {self._last_error()}")
+        return json.loads(self._report.read_text("utf-8"))
+
+    def close(self) -> None:
+        """End the other Blender, if it runs, and remove the temporary files."""
+        if self.running:
+            self._process.terminate()
+            try:
+                self._process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _start(self, job: dict[str, object]) -> None:
+        path = self._folder / "job.json"
+        path.write_text(json.dumps(job), "utf-8")
+        script = str(Path(__file__).with_name("child.py"))
+        if bpy.app.binary_path:
+            command = [bpy.app.binary_path, "--background", "--factory-startup", "--python", script]
+        else:  # Blender as a Python module; -P keeps this folder from hiding Python's own modules
+            command = [sys.executable, "-P", script]
+        resources = self._folder / "user"
+        resources.mkdir()
+        with open(self._folder / "log", "wb") as log, open(self._folder / "errors", "wb") as errors:
+            self._process = subprocess.Popen(
+                [*command, "--", str(path)],
+                # An empty folder for user files: neither preferences nor installed extensions.
+                env=os.environ | {"BLENDER_USER_RESOURCES": str(resources)},
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=errors,
+                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+            )
+
+    def _last_error(self) -> str:
+        text = (self._folder / "errors").read_text("utf-8", errors="replace")
+        lines = [line for line in text.splitlines() if line.strip()]
+        return lines[-1] if lines else f"It left with exit code {self._process.returncode}"
+
+
+def measure(
+    scene: bpy.types.Scene,
+    layer: bpy.types.ViewLayer,
+    options: Options,
+    output: str,
+    tell: Callable[[Progress], None] = lambda progress: None,
+) -> dict[str, object]:
+    """Measure and wait for it; return the report. `tell` gets each new state. Raises CostError."""
+    with CostRun(scene, layer, options, output) as run:
+        told = None
+        while run.running:
+            progress = run.progress()
+            if progress != told:
+                tell(progress)
+                told = progress
+            time.sleep(_POLL_SECONDS)
+        return run.result()
+
+
+def check_scene(scene: bpy.types.Scene) -> None:
+    """Raise CostError where nothing can be measured in a scene."""
+    if not osl_compiler_available():
+        raise CostError(
+            "This Blender was built without Open Shading Language: use one from blender.org"
+        )
+    if scene.camera is None:
+        raise CostError(f"The scene '{scene.name}' has no camera: add one")
+    try:
+        placed_nodes()
+    except RuntimeError as error:
+        raise CostError(str(error)) from None
+
+
+def output_folder(output: str) -> Path:
+    """Make the folder for the reports, and return it. Raises CostError where it cannot be written.
+
+    "//" in a file that was never saved is a folder for temporary files.
+    """
+    if output.startswith("//") and not bpy.data.filepath:
+        folder = Path(tempfile.gettempdir(), output[2:])
+    else:
+        folder = Path(os.path.abspath(bpy.path.abspath(output)))
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = error.strerror or error
+        raise CostError(f"{folder} cannot be written: {reason}. Choose another folder") from error
+    return folder
+
+
+def load_plot(report: dict[str, object]) -> bpy.types.Image:
+    """Show the plot of a report as the image IMAGE, which is packed into the file."""
+    image = bpy.data.images.get(IMAGE)
+    if image is not None:
+        bpy.data.images.remove(image)
+    image = bpy.data.images.load(report["files"]["plot"])
+    image.name = IMAGE
+    image.pack()
+    return image
+
+
+def _notes(
+    scene: bpy.types.Scene, layer: bpy.types.ViewLayer, options: Options, kept: str
+) -> tuple[str, ...]:
+    """Return what is to know about a measurement. Raises CostError where it has no reference."""
+    notes = [
+        "Denoiser, adaptive sampling, clamping, path guiding and light threshold were off; "
+        "rendered on the processor, in a copy of the file."
+    ]
+    missed = exact_warning(enabled_lamps(layer))
+    if missed and options.reference == "EXACT":
+        raise CostError(f"Exact is no reference here: take Walk. {missed}")
+    if missed and "Exact" in options.steps:
+        notes.append(missed)
+    if not scene.cycles.shading_system:
+        notes.append("Open Shading Language is off in the scene; in the copy it was on.")
+    if not kept:
+        notes.append("The reference was not kept, since the file has unsaved changes.")
+    return tuple(notes)
+
+
+def _saved_copy(folder: Path) -> str:
+    path = str(folder / "copy.blend")
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=path, copy=True, check_existing=False)
+    except RuntimeError as error:
+        reason = str(error).strip().removeprefix("Error: ")
+        raise CostError(f"No copy of the file can be saved: {reason}. Make room") from error
+    return path

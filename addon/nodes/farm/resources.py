@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks what our materials need from outside their node group: files, libraries, scripts."""
+
+import os
+from collections.abc import Iterable
+
+import bpy
+
+from ...core.finding import Finding
+from .usage import Use
+
+_FILE_SOURCES = ("FILE", "SEQUENCE", "TILED", "MOVIE")
+
+
+def image_findings(uses: Iterable[Use]) -> list[Finding]:
+    """Return which images of used materials lie outside the file."""
+    images = {
+        node.image: use.material
+        for use in uses
+        for tree in use.trees
+        for node in tree.nodes
+        if getattr(node, "image", None) is not None
+    }
+    found = []
+    for image, material in images.items():
+        if image.is_dirty:
+            message = "It has been painted on and not saved."
+        elif image.packed_file or image.packed_files or image.source not in _FILE_SOURCES:
+            continue
+        elif os.path.exists(_first_file(image)):
+            message = f"It is the file {image.filepath}, outside this one."
+        else:
+            message = f"Its file {image.filepath} is missing."
+        subject = f"Image '{image.name}' of material '{material.name}'"
+        found.append(Finding("warning", subject, message, "Pack it: File > External Data."))
+    return found
+
+
+def _first_file(image: bpy.types.Image) -> str:
+    path = bpy.path.abspath(image.filepath, library=image.library)
+    if image.source == "TILED":
+        return path.replace("<UDIM>", str(image.tiles[0].number))
+    return path
+
+
+def library_findings(uses: Iterable[Use]) -> list[Finding]:
+    """Return which libraries used materials need, and what is wrong with these."""
+    needed: dict[bpy.types.Library, list[str]] = {}
+    for use in uses:
+        for data in (use.material, *use.trees[1:], *use.groups, *use.lost):
+            library = data.library
+            # Blender 5 packs libraries another way than by a packed file.
+            if library and not (library.packed_file or getattr(data, "is_linked_packed", False)):
+                needed.setdefault(library, []).append(data.name)
+    found = []
+    for library, names in needed.items():
+        subject = f"Library '{library.filepath}'"
+        holds = ", ".join(f"'{name}'" for name in dict.fromkeys(names))
+        if not os.path.exists(bpy.path.abspath(library.filepath)):
+            message = f"It is missing, and with it {holds}."
+            found.append(Finding("error", subject, message, "Put the file back and relocate it."))
+        elif library.filepath.startswith("//"):
+            message = f"The farm needs this file too, for {holds}."
+            found.append(Finding("note", subject, message, "Send it along, or make them local."))
+        else:
+            message = f"{holds} are linked by an absolute path, which a farm does not have."
+            remedy = "Take File > External Data > Make Paths Relative, or make them local."
+            found.append(Finding("warning", subject, message, remedy))
+    return found
+
+
+def script_findings(uses: Iterable[Use]) -> list[Finding]:
+    """Return which drivers of used materials need Python, and which texts need the extension."""
+    trees = {tree: use.material for use in uses for tree in (use.material, *use.trees, *use.groups)}
+    found = []
+    for tree, material in trees.items():
+        for curve in tree.animation_data.drivers if tree.animation_data else ():
+            driver = curve.driver
+            if driver.type != "SCRIPTED" or driver.is_simple_expression:
+                continue
+            subject = f"Driver of material '{material.name}'"
+            message = f"{driver.expression!r} is Python, which a farm may not run by itself."
+            remedy = "Use a simple expression, or let the farm run scripts (--enable-autoexec)."
+            found.append(Finding("warning", subject, message, remedy))
+    for text in bpy.data.texts:
+        if text.use_module and "microbounce" in text.as_string().lower():
+            subject = f"Text '{text.name}'"
+            message = "It is run when the file is loaded and names the extension."
+            remedy = "Switch Text > Register off, unless it works without."
+            found.append(Finding("warning", subject, message, remedy))
+    return found

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finds the materials of a file that use our node groups, and all node trees that they reach."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import bpy
+
+from ..group import KIND_KEY
+
+
+@dataclass(frozen=True)
+class Use:
+    """A material with the node trees that it reaches, its own first, and those that are missing.
+
+    `trees` go into node groups, but not into ours. `lost` are placeholders of groups whose library
+    could not be read: nothing tells whether they were ours.
+    """
+
+    material: bpy.types.Material
+    trees: tuple[bpy.types.NodeTree, ...]
+    groups: tuple[bpy.types.NodeTree, ...]
+    lost: tuple[bpy.types.NodeTree, ...]
+
+    @property
+    def used(self) -> bool:
+        """Whether anything but a fake user holds the material."""
+        return is_used(self.material)
+
+
+def is_used(data: bpy.types.ID) -> bool:
+    """Return whether anything but a fake user holds a data-block."""
+    return data.users > int(data.use_fake_user)
+
+
+def material_uses() -> Iterator[Use]:
+    """Yield every material of the file that has a group of ours, or may have had one.
+
+    That is where the library of the material, or of a group in it, could not be read.
+    """
+    for material in bpy.data.materials:
+        use = _use(material)
+        if use.groups or use.lost or material.is_missing:
+            yield use
+
+
+def _use(material: bpy.types.Material) -> Use:
+    trees, groups, lost = [], [], []
+    waiting = [material.node_tree] if _has_nodes(material) else []
+    seen = set(waiting)
+    while waiting:
+        tree = waiting.pop(0)
+        trees.append(tree)
+        for node in tree.nodes:
+            group = node.node_tree if node.bl_idname == "ShaderNodeGroup" else None
+            if group is None or group in seen:
+                continue
+            seen.add(group)
+            if KIND_KEY in group:
+                groups.append(group)
+            elif group.is_missing:
+                lost.append(group)
+            else:
+                waiting.append(group)
+    return Use(material, tuple(trees), tuple(groups), tuple(lost))
+
+
+def _has_nodes(material: bpy.types.Material) -> bool:
+    if material.node_tree is None:
+        return False
+    # Later nodes are always on, and the property is deprecated.
+    return bpy.app.version >= (5, 0, 0) or material.use_nodes

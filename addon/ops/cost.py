@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures what accuracy costs in the open scene, and what belongs to that."""
+
+import bpy
+
+from ..core.cost.plan import Options, PlanError, parse_numbers, parse_steps
+
+_INTERVAL = 0.25  # seconds between looks at a measurement that is under way
+_ESCAPE_HINT = "Measuring the cost: Esc cancels"
+
+
+class State:
+    """What the panel shows; of this session alone.
+
+    progress -- of the measurement that is under way, None where there is none
+    report   -- of the last one, as Report.as_dict() has it, None before the first
+    """
+
+    progress = None
+    report: dict[str, object] | None = None
+
+
+class CostOptions:
+    """The options, for the operator and for the panel that hands them to it."""
+
+    samples: bpy.props.IntProperty(
+        name="Samples",
+        description="Samples of each picture; 0 takes the scene's. Times and noise at other "
+        "numbers follow from these",
+        default=64,
+        min=0,
+        max=65536,
+    )
+    percentage: bpy.props.IntProperty(
+        name="Size",
+        description="Width and height in percent of the scene's resolution; 0 takes the scene's "
+        "percentage",
+        default=50,
+        min=0,
+        max=100,
+        subtype="PERCENTAGE",
+    )
+    rounds: bpy.props.IntProperty(
+        name="Rounds",
+        description="How often each variant is rendered and timed, each time with other noise",
+        default=3,
+        min=2,
+        max=32,
+    )
+    error: bpy.props.FloatProperty(
+        name="Target Error",
+        description="The times are those to this error, relative to the reference, in percent",
+        default=2.0,
+        min=0.01,
+        max=99.0,
+        subtype="PERCENTAGE",
+    )
+    steps: bpy.props.StringProperty(
+        name="Qualities",
+        description="Qualities to compare, with commas between",
+        default="Single, Fitted, Walk, Exact",
+    )
+    bounces: bpy.props.StringProperty(
+        name="Bounces",
+        description="Limits of the bounces on the microsurface to compare, in Walk, with commas "
+        "between; empty for none",
+        default="1, 2, 4, 8, 16",
+    )
+    walks: bpy.props.StringProperty(
+        name="Walks",
+        description="Numbers of walks to compare, in Walk, with commas between; empty for none",
+    )
+    kernels: bpy.props.StringProperty(
+        name="Kernels",
+        description="Radii of the lobe to compare, in Walk, with commas between; empty for none",
+    )
+    baselines: bpy.props.BoolProperty(
+        name="Cycles' Own Materials",
+        description="Compare Cycles' own materials of the same values too, with Open Shading "
+        "Language on and off",
+        default=True,
+    )
+    reference: bpy.props.EnumProperty(
+        name="Reference",
+        description="What the pictures are compared with",
+        items=[
+            ("WALK", "Walk", "Many narrow walks: sees all lights"),
+            ("EXACT", "Exact", "No bias, but noise; not where lights have no size"),
+        ],
+    )
+    reference_samples: bpy.props.IntProperty(
+        name="Reference Samples",
+        description="Samples of the reference; 0 takes 16 times those of a picture",
+        default=0,
+        min=0,
+    )
+    output: bpy.props.StringProperty(
+        name="Output",
+        description="Folder for the page, the tables and the plot; // is the file's own",
+        default="//microbounce_cost",
+        subtype="DIR_PATH",
+    )
+
+    def options(self) -> Options:
+        """Return the options; raises PlanError for what makes no sense."""
+        return Options(
+            samples=self.samples,
+            percentage=self.percentage,
+            steps=parse_steps(self.steps),
+            bounces=parse_numbers(self.bounces),
+            walks=parse_numbers(self.walks),
+            kernels=parse_numbers(self.kernels, float),
+            baselines=self.baselines,
+            rounds=self.rounds,
+            reference=self.reference,
+            reference_samples=self.reference_samples,
+            error=self.error / 100.0,
+        )
+
+
+class MICROBOUNCE_PG_cost(CostOptions, bpy.types.PropertyGroup):
+    """The options in the panel."""
+
+
+class MICROBOUNCE_OT_measure_cost(CostOptions, bpy.types.Operator):
+    """Render the scene's variants in a Blender of their own, and report."""
+
+    bl_idname = "microbounce.measure_cost"
+    bl_label = "Measure Cost"
+    bl_description = (
+        "Render this view with each quality and with Cycles' own materials, in the background, "
+        "and show how much time each takes to which error. The scene stays as it is"
+    )
+    # No UNDO: nothing of the scene changes, and a step back should not be spent on it.
+    bl_options = {"REGISTER"}
+
+    _run = None
+    _timer = None
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow one at a time, in a scene with a camera."""
+        if State.progress is not None:
+            cls.poll_message_set("A measurement is under way: Esc cancels it")
+            return False
+        if context.scene.camera is None:
+            cls.poll_message_set("The scene has no camera: add one")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Measure and wait for it, as scripts want it."""
+        from ..nodes.cost.run import CostError, measure
+
+        try:
+            report = measure(context.scene, context.view_layer, self.options(), self.output)
+        except (CostError, PlanError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return self._finish(report)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Start it and go on while Blender is used."""
+        if bpy.app.background:
+            return self.execute(context)
+        from ..nodes.cost.run import CostError, CostRun
+
+        try:
+            self._run = CostRun(context.scene, context.view_layer, self.options(), self.output)
+        except (CostError, PlanError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        State.progress = self._run.progress()
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        context.workspace.status_text_set(_ESCAPE_HINT)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Show how far it is; take its report at the end; end it on Esc."""
+        from ..nodes.cost.run import CostError
+
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, "Measuring was cancelled")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if self._run.running:
+            self._show_progress(context)
+            return {"PASS_THROUGH"}
+        try:
+            report = self._run.result()
+        except CostError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        finally:
+            self.cancel(context)
+        return self._finish(report)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """End what is under way, also when Blender quits or loads another file."""
+        State.progress = None
+        self._run.close()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+        _redraw_panels(context)
+
+    def _show_progress(self, context: bpy.types.Context) -> None:
+        progress = self._run.progress()
+        context.window_manager.progress_update(100 * progress.part)
+        if progress != State.progress:
+            State.progress = progress
+            context.workspace.status_text_set(f"{_ESCAPE_HINT}  |  {progress.text}")
+            _redraw_panels(context)
+
+    def _finish(self, report: dict[str, object]) -> set[str]:
+        from ..nodes.cost.run import load_plot
+
+        State.report = report
+        load_plot(report)
+        self.report({"INFO"}, report["sentence"])
+        return {"FINISHED"}
+
+
+class MICROBOUNCE_OT_clear_cost_cache(bpy.types.Operator):
+    """Remove the references that were kept."""
+
+    bl_idname = "microbounce.clear_cost_cache"
+    bl_label = "Clear Cost Cache"
+    bl_description = "Remove the reference pictures that were kept from earlier measurements"
+    bl_options = {"REGISTER"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Remove them and say how many there were."""
+        from ..nodes.cost.reference_cache import cache_folder, clear_cache
+
+        try:
+            count = clear_cache()
+        except OSError as error:
+            self.report({"ERROR"}, f"{cache_folder()} cannot be removed: {error}. Remove it")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{count} reference{'' if count == 1 else 's'} removed")
+        return {"FINISHED"}
+
+
+def _redraw_panels(context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "PROPERTIES":
+                area.tag_redraw()
+
+
+CLASSES = (MICROBOUNCE_PG_cost, MICROBOUNCE_OT_measure_cost, MICROBOUNCE_OT_clear_cost_cache)
+
+
+def register() -> None:
+    """Add the panel's options to the window manager: they are not part of the scene."""
+    bpy.types.WindowManager.microbounce_cost = bpy.props.PointerProperty(type=MICROBOUNCE_PG_cost)
+
+
+def unregister() -> None:
+    """Take them out, and forget the last report."""
+    del bpy.types.WindowManager.microbounce_cost
+    State.progress = State.report = None

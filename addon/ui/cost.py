@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel Cost in the render properties: options, progress, and the last result."""
+
+import textwrap
+from pathlib import Path
+
+import bpy
+
+from ..ops.cost import (
+    CostOptions,
+    MICROBOUNCE_OT_clear_cost_cache,
+    MICROBOUNCE_OT_measure_cost,
+    State,
+)
+
+# Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
+_CHARACTER_WIDTH = 8
+
+
+class MICROBOUNCE_PT_cost(bpy.types.Panel):
+    """What accuracy costs in this scene."""
+
+    bl_label = "Microbounce Cost"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Show it for Cycles, in which our materials run."""
+        return context.engine == "CYCLES"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the button or how far it is, and below it the last result."""
+        layout = self.layout
+        if State.progress is not None:
+            _draw_progress(layout)
+        else:
+            _draw_button(layout, context.window_manager.microbounce_cost)
+        if State.report is not None:
+            _draw_report(layout, context, State.report)
+
+
+class MICROBOUNCE_PT_cost_options(bpy.types.Panel):
+    """What is measured, and how."""
+
+    bl_label = "Options"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    bl_parent_id = "MICROBOUNCE_PT_cost"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the options, those that are seldom changed last."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        options = context.window_manager.microbounce_cost
+        for name in CostOptions.__annotations__:
+            layout.prop(options, name)
+        layout.operator(MICROBOUNCE_OT_clear_cost_cache.bl_idname)
+
+
+def _draw_button(layout: bpy.types.UILayout, options: CostOptions) -> None:
+    button = layout.operator(MICROBOUNCE_OT_measure_cost.bl_idname, icon="TIME")
+    for name in CostOptions.__annotations__:
+        setattr(button, name, getattr(options, name))
+
+
+def _draw_progress(layout: bpy.types.UILayout) -> None:
+    progress = State.progress
+    left = "" if progress.left is None else f", {_duration(progress.left)} left"
+    layout.progress(factor=progress.part, text=f"{100 * progress.part:.0f} %{left}")
+    layout.label(text=progress.text)
+    layout.label(text="Esc cancels", icon="INFO")
+
+
+def _draw_report(
+    layout: bpy.types.UILayout, context: bpy.types.Context, report: dict[str, object]
+) -> None:
+    box = layout.box()
+    column = box.column(align=True)
+    scale = context.preferences.system.ui_scale
+    width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
+    for line in textwrap.wrap(report["sentence"], width):
+        column.label(text=line)
+    grid = box.grid_flow(row_major=True, columns=4, even_columns=False, align=True)
+    error = 100 * report["setting"]["error"]
+    for heading in ("Variant", f"To {error:g} %", "Bias", "Noise"):
+        grid.label(text=heading)
+    for row in report["variants"]:
+        for text in _cells(row):
+            grid.label(text=text)
+    buttons = box.row(align=True)
+    page = Path(report["files"]["page"])
+    for text, path in (("Open Report", page), ("Open Folder", page.parent)):
+        buttons.operator("wm.path_open", text=text).filepath = str(path)
+
+
+def _cells(row: dict[str, object]) -> tuple[str, ...]:
+    time = row["seconds_to_error"]
+    bias = f"{100 * row['bias']:.2g} %"
+    if not row["bias_resolved"]:
+        bias = f"< {100 * row['bias_resolution']:.2g} %"
+    return (
+        row["variant"],
+        "never" if time is None else _duration(time),
+        bias,
+        f"{100 * row['noise']:.2g} %",
+    )
+
+
+def _duration(seconds: float) -> str:
+    from ..core.cost.advice import duration
+
+    return duration(seconds)
+
+
+CLASSES = (MICROBOUNCE_PT_cost, MICROBOUNCE_PT_cost_options)
