@@ -8,7 +8,10 @@ of its own. The oracle's pictures have little noise: there first and second are 
 
 import numpy as np
 
+from addon.core.cost.statistics import split_error
+
 Reference = dict[str, np.ndarray]
+UNKNOWN = (float("nan"), float("nan"))
 
 
 def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") -> float:
@@ -17,21 +20,28 @@ def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") 
     The difference from one picture of the reference is multiplied with that from the other: their
     own noise cancels in the mean.
     """
-    return squared_bias(picture, picture, reference, variant)[0]
+    if "first" not in reference:
+        return float("nan")
+    first, second = _pair(reference, variant)
+    mask = reference["mask"]
+    product = (picture - first) * (picture - second)
+    return float(product[mask].mean() / (first * second)[mask].mean())
 
 
 def squared_bias(
-    a: np.ndarray, b: np.ndarray, reference: Reference, variant: str = ""
+    pictures: list[np.ndarray], reference: Reference, variant: str = ""
 ) -> tuple[float, float]:
-    """Squared error of what two independent pictures of a variant converge to, which may come out
-    negative, and its standard error; nan where there is no reference."""
-    if "first" not in reference:
-        return float("nan"), float("nan")
-    first, second = _pair(reference, variant)
-    mask = reference["mask"]
-    product = ((a - first) * (b - second))[mask].mean(axis=-1)
-    power = np.mean((first * second)[mask])
-    return float(product.mean() / power), float(product.std(ddof=1) / product.size**0.5 / power)
+    """Squared error of what a variant converges to, and its standard error, from pictures of equal
+    samples and independent noise; it may come out negative.
+
+    UNKNOWN without a reference or with fewer than two pictures.
+    """
+    if "first" not in reference or len(pictures) < 2:
+        return UNKNOWN
+    mask = reference["mask"][..., None]
+    pair = [np.where(mask, one, 0.0) for one in _pair(reference, variant)]
+    split = split_error([np.where(mask, one, 0.0) for one in pictures], pair)
+    return split.bias_square, split.bias_square_se
 
 
 def resolution(reference: Reference, error: np.ndarray | None = None) -> float:

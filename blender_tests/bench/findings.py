@@ -9,7 +9,7 @@ import numpy as np
 
 from . import store
 from .curves import Curve
-from .errors import squared_bias
+from .errors import UNKNOWN, squared_bias
 from .machine import Machine
 from .plan import Scene, Variant
 
@@ -93,11 +93,11 @@ def _curve(
 def _bias(
     variant: Variant, runs: list[store.Result], reference: store.Result
 ) -> tuple[float, float]:
-    """From the last pictures of the two longest rounds, whose noise is independent."""
-    if len(runs) < 2 or variant.percentage:  # pictures of another size than the reference
-        return float("nan"), float("nan")
-    a, b = sorted(runs, key=lambda run: -run["samples"][-1])[:2]
-    return squared_bias(a["picture"], b["picture"], reference, variant.name)
+    """From the pictures of rounds that went far enough, whose noise is independent."""
+    if variant.percentage:  # pictures of another size than the reference
+        return UNKNOWN
+    pictures = [run["picture"] for run in runs if "picture" in run]
+    return squared_bias(pictures, reference, variant.name)
 
 
 def _load(path: Path, scene: Scene) -> store.Result:

@@ -74,7 +74,7 @@ class Measure:
         Arrays over the levels: ``samples``, ``squared_error`` (mean over the mask, relative to the
         mean square of the reference; nan without one); ``cpu`` and ``wall``, seconds a sample;
         ``start``, processor seconds of the first render, which compiles the shaders; ``picture`` at
-        the last level.
+        ``scene.paired`` samples, of rounds that have as many.
         """
         top = self.scene.tops[turn]
         self._switch(variant)
@@ -82,7 +82,7 @@ class Measure:
         self._picture(turn, 0, 1, top)  # warm-up
         start = time.process_time() - begin
         total = 0.0
-        found, errors, times = levels(top), [], []
+        found, errors, times, kept = levels(top), [], [], {}
         for level, before in zip(found, [0, *found], strict=False):
             count = level - before
             cpu, wall = time.process_time(), time.perf_counter()
@@ -90,13 +90,15 @@ class Measure:
             times.append((time.process_time() - cpu, time.perf_counter() - wall, count))
             total = total + count * picture
             errors.append(squared_error(total / level, reference, variant.name))
+            if level == self.scene.paired:
+                kept["picture"] = (total / level).astype(np.float32)
         return {
             "samples": np.array(found),
             "squared_error": np.array(errors),
             "cpu": np.array(_a_sample([(cpu, count) for cpu, _, count in times])),
             "wall": np.array(_a_sample([(wall, count) for _, wall, count in times])),
             "start": np.array(start),
-            "picture": (total / top).astype(np.float32),
+            **kept,
         }
 
     def _switch(self, variant: Variant) -> None:

@@ -90,7 +90,7 @@ beside it.{few} Denoiser and adaptive sampling are off, and nothing is clamped.
 
 **Error** is the root of the mean squared difference from the reference over its root mean square.
 A render's samples are those of one sequence, looked at after 1, 2, 4 ... of them. *Converged* is
-the error without noise: the mean product of two independent renders' differences, with its standard
+the error without noise, from independent renders (`addon/core/cost/statistics.py`), with its standard
 error. Below the reference's own noise, the dotted line of a plot, nothing is told.
 
 **Variants.** *{SINGLE}*, *{FITTED}*, *{WALK}* (4 walks, height-correlated) and *Exact* are our

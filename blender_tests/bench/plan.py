@@ -105,6 +105,11 @@ class Scene:
         return self.stage in ("slab", "sun", "back")
 
     @property
+    def paired(self) -> int:
+        """Samples of the pictures that tell bias from noise: the first two rounds have as many."""
+        return min(self.tops[:2])
+
+    @property
     def cost(self) -> int:
         """Samples of all renders, for the progress bar."""
         return len(self.variants) * sum(self.tops) + 2 * self.reference_samples
