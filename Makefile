@@ -18,7 +18,7 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
 .PHONY: help demo demo-picture analysis-demo test test-all test-5.2 test-4.5 test-window window-pictures lint \
-        format addon assets previews references figures tables scenes clean
+        format addon assets previews references figures tables scenes bench bench-check clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' Makefile
@@ -72,6 +72,12 @@ references: ## Render the oracle's reference pictures anew (about 35 minutes)
 
 figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
 	@$(any) -m blender_tests.figures
+
+bench: ## Measure what accuracy costs in time (docs/benchmarks; about 40 minutes on two idle cores)
+	@$(any) -m blender_tests.bench
+
+bench-check: ## Fail where a quick benchmark's ratios of times grew (about two minutes)
+	@$(any) -m blender_tests.bench --check
 
 tables: ## Fit the shaders' tables anew (osl/tables; about nine minutes on two cores)
 	@$(any) -m osl.tables

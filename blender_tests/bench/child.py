@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures one scene in a process of its own: ``python -m blender_tests.bench.child``.
+
+What is kept is not rendered again. On standard error a line ``STEP samples`` says that so many
+samples are done.
+"""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from . import plan, store
+from .measure import Measure
+
+
+def main() -> None:
+    """Parse the arguments and do the job."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("plan", choices=plan.PLANS)
+    parser.add_argument("scene")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--log", type=Path, required=True)
+    arguments = parser.parse_args()
+    scene = next(one for one in plan.PLANS[arguments.plan] if one.name == arguments.scene)
+    measure_scene(scene, arguments.folder, arguments.log)
+
+
+def measure_scene(scene: plan.Scene, folder: Path, log: Path) -> None:
+    """Render all that `folder` lacks of a scene: its reference, then rounds, variants taking
+    turns."""
+    measure = Measure(scene, log)
+    path = store.reference_path(folder, scene)
+    reference = store.load(path)
+    if reference is None:
+        reference = measure.reference()
+        store.save(path, reference)
+    _tell(2 * scene.reference_samples)
+    for turn, top in enumerate(scene.tops):
+        for variant in scene.variants:
+            path = store.run_path(folder, scene, variant, turn)
+            if store.load(path) is None:
+                store.save(path, measure.run(variant, turn, reference))
+            _tell(top)
+
+
+def _tell(samples: int) -> None:
+    print(f"STEP {samples}", file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    main()
+    # bpy 4.5 was seen to hang while it takes itself down.
+    sys.stdout.flush()
+    os._exit(0)

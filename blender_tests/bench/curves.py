@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Error over time of one variant of a scene, and how two of them compare."""
+
+import math
+import statistics
+from dataclasses import dataclass
+
+import numpy as np
+
+# A median of as many rounds at least is told as a time.
+FEWEST_ROUNDS = 5
+
+
+@dataclass(frozen=True)
+class Curve:
+    """What was measured of a variant.
+
+    samples -- 1, 2, 4 ... samples a pixel
+    squared -- squared error relative to the reference's mean square, median of the rounds that went
+               so far; ``lowest`` and ``highest`` are the rounds' own; nan without a reference
+    cpu     -- seconds that all threads took for a sample, by round
+    wall    -- seconds that passed, by round
+    start   -- seconds that all threads took for the first render after the switch, by round
+    bias    -- squared error of what it converges to, and that number's standard error
+    """
+
+    variant: str
+    samples: tuple[int, ...]
+    squared: tuple[float, ...]
+    lowest: tuple[float, ...]
+    highest: tuple[float, ...]
+    cpu: tuple[float, ...]
+    wall: tuple[float, ...]
+    start: tuple[float, ...]
+    bias: tuple[float, float] = (math.nan, math.nan)
+
+    @property
+    def a_sample(self) -> float:
+        """Seconds of processor time a sample, median of the rounds."""
+        return statistics.median(self.cpu)
+
+    @property
+    def spread(self) -> tuple[float, float]:
+        """The least and the most of the rounds' seconds a sample."""
+        return min(self.cpu), max(self.cpu)
+
+    @property
+    def seconds(self) -> tuple[float, ...]:
+        """Of processor time, at each number of samples."""
+        return tuple(count * self.a_sample for count in self.samples)
+
+    @property
+    def known(self) -> bool:
+        """Whether there is an error at all."""
+        return not math.isnan(self.squared[0])
+
+    def squared_at(self, seconds: float) -> float | None:
+        """Squared error at a time, straight between levels in both logarithms; None outside."""
+        times = self.seconds
+        if not self.known or not times[0] * (1 - 1e-9) <= seconds <= times[-1] * (1 + 1e-9):
+            return None
+        return float(np.exp(np.interp(np.log(seconds), np.log(times), np.log(self.squared))))
+
+    def error_at(self, seconds: float) -> float | None:
+        """Root of `squared_at`."""
+        squared = self.squared_at(seconds)
+        return None if squared is None else math.sqrt(squared)
+
+    def seconds_to(self, error: float) -> float | None:
+        """The first time at which the error is at most `error`; None where it never is.
+
+        Where one sample is enough it is the time of one sample.
+        """
+        wanted = error**2
+        times = self.seconds
+        for index, squared in enumerate(self.squared):
+            if squared <= wanted:
+                if index == 0:
+                    return times[0]
+                pair = slice(index - 1, index + 1)
+                above, below = np.log(self.squared[pair])
+                start, end = np.log(times[pair])
+                part = (above - math.log(wanted)) / (above - below)
+                return float(np.exp(start + part * (end - start)))
+        return None
+
+
+def time_ratios(ours: Curve, theirs: Curve) -> tuple[float, ...]:
+    """How many times as long a sample of `ours` takes, round by round: neighbours in time, so that
+    a load on the machine weighs on both."""
+    return tuple(a / b for a, b in zip(ours.cpu, theirs.cpu, strict=False))
+
+
+def time_ratio(ours: Curve, theirs: Curve) -> float:
+    """The median of `time_ratios`."""
+    return statistics.median(time_ratios(ours, theirs))
+
+
+def shared_times(one: Curve, other: Curve) -> tuple[float, float] | None:
+    """The span of time in which both have an error; None where there is no such time."""
+    start = max(one.seconds[0], other.seconds[0])
+    end = min(one.seconds[-1], other.seconds[-1])
+    return (start, end) if start <= end and one.known and other.known else None
+
+
+def gain(ours: Curve, theirs: Curve, seconds: float) -> float | None:
+    """How many times smaller the squared error of `ours` is at equal time; None outside both."""
+    mine, other = ours.squared_at(seconds), theirs.squared_at(seconds)
+    return None if mine is None or other is None else other / mine
+
+
+def gains(ours: Curve, theirs: Curve, count: int = 33) -> list[tuple[float, float]]:
+    """(seconds, gain) over the whole span that both share, evenly in its logarithm."""
+    span = shared_times(ours, theirs)
+    if span is None:
+        return []
+    times = np.geomspace(*span, count)
+    return [(float(t), found) for t in times if (found := gain(ours, theirs, float(t)))]
+
+
+def best_at(curves: list[Curve], seconds: float) -> Curve | None:
+    """The curve with the smallest error at a time; None where none has one."""
+    found = [(squared, c) for c in curves if (squared := c.squared_at(seconds)) is not None]
+    return min(found, key=lambda pair: pair[0])[1] if found else None

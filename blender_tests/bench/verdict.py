@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the curves say, in words that depend on them: where Cycles' own closures are the better
+choice, and where ours are."""
+
+import math
+from collections.abc import Sequence
+
+from .curves import gains, time_ratio
+from .findings import SceneFindings
+from .plan import CYCLES, FITTED, ONE_WALK, WALK
+from .targets import TOLD_AT
+
+_CLEAR = 2.0  # standard errors by which converged errors must differ to be told apart
+
+
+def moment(one: SceneFindings) -> tuple[str, float]:
+    """The variant that errors at equal time are told over, and that time: in which it takes TOLD_AT
+    samples."""
+    baseline = next((n for n in (ONE_WALK, CYCLES) if n in one.curves), next(iter(one.curves)))
+    return baseline, TOLD_AT * one.curves[baseline].a_sample
+
+
+def losses(found: Sequence[SceneFindings]) -> list[str]:
+    """Sentences on the scenes in which Cycles has the smaller error."""
+    lines = []
+    for one in found:
+        for quality in (FITTED, WALK):
+            lines += _lost(one, quality)
+    return lines
+
+
+def wins(found: Sequence[SceneFindings]) -> list[str]:
+    """Sentences on the scenes in which ours has the smaller error in all of the time, or later."""
+    lines = []
+    for one in found:
+        for quality in (FITTED, WALK):
+            every = _over_cycles(one, quality)
+            ahead = [(seconds, value) for seconds, value in every if value > 1.0]
+            if not ahead or every[-1][1] <= 1.0:
+                continue
+            start = _last_start(every)
+            when = "at all times" if start <= every[0][0] else f"from {start:.2g} s on"
+            lines.append(
+                f"{one.scene.title}: {quality} has the smaller error {when}; in the end its "
+                f"squared error is {_times(every[-1][1])} times smaller."
+            )
+    return lines
+
+
+def _lost(one: SceneFindings, quality: str) -> list[str]:
+    every = _over_cycles(one, quality)
+    if not every:
+        return []
+    lines = []
+    behind = [value for _, value in every if value < 1.0]
+    title = one.scene.title
+    if len(behind) == len(every):
+        lines.append(
+            f"{title}: {quality} has the larger error at all times, {every[0][0]:.2g} to "
+            f"{every[-1][0]:.2g} s; its squared error is {_times(1.0 / max(behind))} to "
+            f"{_times(1.0 / min(behind))} times Cycles'."
+        )
+    elif behind:
+        lines.append(
+            f"{title}: {quality} has the larger error until {_last_start(every):.2g} s, in squares "
+            f"up to {_times(1.0 / min(behind))} times Cycles'."
+            if every[-1][1] > 1.0
+            else f"{title}: {quality} has the larger error in the end, in squares "
+            f"{_times(1.0 / every[-1][1])} times Cycles'."
+        )
+    ours, theirs = one.curves[quality], one.curves[CYCLES]
+    worse = ours.bias[0] - theirs.bias[0]
+    if worse > _CLEAR * math.hypot(ours.bias[1], theirs.bias[1]):
+        lines.append(
+            f"{title}: what {quality} converges to is {_root(ours.bias[0])} off, Cycles "
+            f"{_root(theirs.bias[0])}; a sample takes {time_ratio(ours, theirs):.2f} times as long."
+        )
+    return lines
+
+
+def _over_cycles(one: SceneFindings, quality: str) -> list[tuple[float, float]]:
+    if quality not in one.curves or CYCLES not in one.curves:
+        return []
+    return gains(one.curves[quality], one.curves[CYCLES])
+
+
+def _last_start(every: list[tuple[float, float]]) -> float:
+    """Since when ours is ahead without a break up to the end."""
+    start = every[-1][0]
+    for seconds, value in reversed(every):
+        if value <= 1.0:
+            break
+        start = seconds
+    return start
+
+
+def _times(value: float) -> str:
+    return f"{value:.2g}" if value < 9.95 else f"{value:.0f}"
+
+
+def _root(squared: float) -> str:
+    return f"{100.0 * math.sqrt(max(squared, 0.0)):.2f} %"
