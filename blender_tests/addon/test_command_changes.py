@@ -139,6 +139,19 @@ def test_converting_there_and_back(command, file, registered):
     assert node_kinds(registered, file, "Ours") == ["DIFFUSE"]
 
 
+def test_grease_pencil_materials_are_left_out_unless_named(command, file, registered):
+    pencil = registered.data.materials.new("Pencil")
+    registered.data.materials.create_gpencil_data(pencil)
+    pencil.use_fake_user = True
+    registered.ops.wm.save_mainfile()
+    code, out, _ = command("convert", "--to", "microbounce", "--file", file)
+    assert (code, "Pencil" in out) == (0, False)
+    arguments = ("convert", "--to", "microbounce", "--material", "Pencil", "--file", file)
+    code, out, _ = command(*arguments)
+    assert code == 1
+    assert "Pencil: It is a grease pencil material" in out
+
+
 def test_a_dry_run_that_shall_save_is_refused(command, file):
     code, _, err = command("update", "--dry-run", "--save", "--file", file)
     assert code == 2

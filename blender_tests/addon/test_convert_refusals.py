@@ -170,6 +170,14 @@ def test_a_material_without_nodes(file):
         assert convert(material).entries == ()
 
 
+def test_a_grease_pencil_material(file):
+    pencil = file.data.materials.new("Pencil")
+    file.data.materials.create_gpencil_data(pencil)
+    for direction in (TO_OURS, TO_NATIVE):
+        (entry,) = plan(pencil, direction).entries
+        assert "grease pencil material, which has no surface: choose another" in entry.text
+
+
 def test_an_empty_group_node(file):
     material, tree, _ = surface_material("Empty")
     tree.nodes.new("ShaderNodeGroup")
