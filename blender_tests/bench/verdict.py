@@ -5,12 +5,14 @@ choice, and where ours are."""
 import math
 from collections.abc import Sequence
 
+from addon.core.cost.statistics import ErrorSplit
+
 from .curves import gains, time_ratio
 from .findings import SceneFindings
 from .plan import CYCLES, FITTED, ONE_WALK, WALK
 from .targets import TOLD_AT
 
-_CLEAR = 2.0  # standard errors by which converged errors must differ to be told apart
+_CLEAR = 3.0  # standard errors by which converged errors must differ to be told apart
 
 
 def moment(one: SceneFindings) -> tuple[str, float]:
@@ -69,11 +71,12 @@ def _lost(one: SceneFindings, quality: str) -> list[str]:
             f"{_times(1.0 / every[-1][1])} times Cycles'."
         )
     ours, theirs = one.curves[quality], one.curves[CYCLES]
-    worse = ours.bias[0] - theirs.bias[0]
-    if worse > _CLEAR * math.hypot(ours.bias[1], theirs.bias[1]):
+    mine, other = ours.bias, theirs.bias
+    if mine and other and _clearly(mine, other):
         lines.append(
-            f"{title}: what {quality} converges to is {_root(ours.bias[0])} off, Cycles "
-            f"{_root(theirs.bias[0])}; a sample takes {time_ratio(ours, theirs):.2f} times as long."
+            f"{title}: what {quality} converges to is {100 * mine.bias:.2f} % off, Cycles "
+            f"{100 * other.bias:.2f} %; a sample takes {time_ratio(ours, theirs):.2f} times as "
+            "long."
         )
     return lines
 
@@ -98,5 +101,6 @@ def _times(value: float) -> str:
     return f"{value:.2g}" if value < 9.95 else f"{value:.0f}"
 
 
-def _root(squared: float) -> str:
-    return f"{100.0 * math.sqrt(max(squared, 0.0)):.2f} %"
+def _clearly(larger: ErrorSplit, smaller: ErrorSplit) -> bool:
+    error = math.hypot(larger.bias_square_se, smaller.bias_square_se)
+    return larger.bias_square - smaller.bias_square > _CLEAR * error
