@@ -23,7 +23,10 @@ def main() -> None:
     parser.add_argument("--log", type=Path, required=True)
     parser.add_argument("--repeat", type=int, default=1, help="times the plan's rounds")
     arguments = parser.parse_args()
-    scene = next(one for one in plan.PLANS[arguments.plan] if one.name == arguments.scene)
+    scenes = {one.name: one for one in plan.PLANS[arguments.plan]}
+    if arguments.scene not in scenes:
+        parser.error(f"{arguments.scene}: the scenes of this plan are {', '.join(scenes)}")
+    scene = scenes[arguments.scene]
     measure_scene(scene.repeated(arguments.repeat), arguments.folder, arguments.log)
 
 

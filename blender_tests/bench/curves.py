@@ -120,9 +120,3 @@ def gains(ours: Curve, theirs: Curve, count: int = 33) -> list[tuple[float, floa
         return []
     times = np.geomspace(*span, count)
     return [(float(t), found) for t in times if (found := gain(ours, theirs, float(t)))]
-
-
-def best_at(curves: list[Curve], seconds: float) -> Curve | None:
-    """The curve with the smallest error at a time; None where none has one."""
-    found = [(squared, c) for c in curves if (squared := c.squared_at(seconds)) is not None]
-    return min(found, key=lambda pair: pair[0])[1] if found else None

@@ -51,7 +51,7 @@ def headline_table(found: Mapping[str, SceneFindings]) -> str:
     )  # fmt: skip
     rows = []
     for one in found.values():
-        if one.scene.is_sweep or CYCLES not in one.curves:
+        if one.scene.is_sweep or not {SINGLE, FITTED, WALK, CYCLES} <= one.curves.keys():
             continue
         seconds = moment(one)[1]
         curves = one.curves
