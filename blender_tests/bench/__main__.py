@@ -17,14 +17,13 @@ from .machine import this_machine
 from .plan import PLANS, Scene
 from .runner import run_scenes
 from .targets import targets
-from .verdict import moment
 
 FOLDER = ROOT / "docs" / "benchmarks"
 CACHE = ROOT / "build" / "bench"
 RATIOS = FOLDER / "ratios.json"
 COMMAND = "python -m blender_tests.bench"
 # Of the headline, as far as they were measured.
-HEADLINE = ("slab_0.3", "slab_0.6", "sun_white", "showcase")
+HEADLINE = ("slab_0.6", "sun_white", "showcase")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -67,15 +66,12 @@ def files(found: Mapping[str, SceneFindings], whole: bool) -> dict[str, str]:
     with style.style():
         for name, one in found.items():
             if any(curve.known for curve in one.curves.values()) and not one.scene.is_sweep:
-                made[f"{name}.svg"] = draw.draw_scene(one, *moment(one))
+                made[f"{name}.svg"] = draw.draw_scene(one)
         if not whole:
             return made
-        headline = [found[name] for name in HEADLINE if name in found]
-        headline = [one for one in headline if any(c.known for c in one.curves.values())]
+        headline = [found[name] for name in HEADLINE if f"{name}.svg" in made]
         if headline:
-            made["headline.svg"] = draw.draw_headline(
-                [(one, *moment(one)) for one in headline[-3:]]
-            )
+            made["headline.svg"] = draw.draw_headline(headline)
         if any(one.scene.is_sweep for one in found.values()):
             made["sweeps.svg"] = draw.draw_sweeps(dict(found))
     aims = targets(found)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from blender_tests.figures.draw import FAINT, INK, PAPER, WIDTH, heading, place, svg
+from blender_tests.figures.draw import BOUNCE_COLOURS, FAINT, INK, PAPER, WIDTH, heading, place, svg
 
 from .curves import Curve, gain
 from .findings import SceneFindings
@@ -29,19 +29,21 @@ from .plan import (
     WALK_COUNTS,
     WHOLE_WALK,
 )
+from .verdict import moment, times_text
 
-# After Okabe and Ito, as in the figures; related variants share a colour and differ in their line.
+# Those of the figures; related variants share a colour and differ in their line.
+_BLUE, _ORANGE, _GREEN, _PURPLE, _ = BOUNCE_COLOURS
 COLOURS = {
-    SINGLE: "#8a8a8a",
-    FITTED: "#d55e00",
-    WALK: "#0072b2",
-    UNCORRELATED: "#0072b2",
-    TRACKED: "#0072b2",
-    ONE_WALK: "#222222",
-    WHOLE_WALK: "#222222",
-    EXACT: "#a0478a",
-    CYCLES: "#009e73",
-    CYCLES_SVM: "#009e73",
+    SINGLE: FAINT,
+    FITTED: _ORANGE,
+    WALK: _BLUE,
+    UNCORRELATED: _BLUE,
+    TRACKED: _BLUE,
+    ONE_WALK: INK,
+    WHOLE_WALK: INK,
+    EXACT: _PURPLE,
+    CYCLES: _GREEN,
+    CYCLES_SVM: _GREEN,
 }
 LINES = {UNCORRELATED: ":", TRACKED: "--", CYCLES_SVM: "--", ONE_WALK: "-.", WHOLE_WALK: ":"}
 _LEFT, _GAP, _TOP = 0.75, 0.55, 0.75  # inches
@@ -49,20 +51,20 @@ _MARKS = "Numbers: how many times smaller the squared error is."
 _HALO = [withStroke(linewidth=2.0, foreground=PAPER)]
 
 
-def draw_scene(found: SceneFindings, baseline: str, seconds: float) -> str:
-    """Error over time of all variants; marks of equal time at `seconds` over the `baseline`."""
+def draw_scene(found: SceneFindings) -> str:
+    """Error over time of all variants, with marks of equal time."""
     page = Figure(figsize=(WIDTH, 4.6))
     heading(page, found.scene.title, f"{note(found)} {_MARKS}")
     axes = place(page, _LEFT, _TOP, 5.9, 3.2)
     shown = [curve for curve in found.curves.values() if curve.known]
     _curves(axes, shown, found.resolution)
-    _marks(axes, shown, found.curves.get(baseline), seconds)
+    _marks(axes, shown, *moment(found))
     axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), handlelength=2.6)
     return svg(page, f"{found.scene.title}: error over time")
 
 
-def draw_headline(scenes: Sequence[tuple[SceneFindings, str, float]]) -> str:
-    """A few scenes side by side, with the variants that matter: (findings, baseline, seconds)."""
+def draw_headline(scenes: Sequence[SceneFindings]) -> str:
+    """A few scenes side by side, with the variants that matter."""
     page = Figure(figsize=(WIDTH, 3.7))
     heading(
         page,
@@ -70,12 +72,12 @@ def draw_headline(scenes: Sequence[tuple[SceneFindings, str, float]]) -> str:
         f"Relative L2 error over seconds of processor time. {_MARKS}",
     )
     wide = (WIDTH - _LEFT - _GAP * (len(scenes) - 1) - 0.15) / len(scenes)
-    for column, (found, baseline, seconds) in enumerate(scenes):
+    for column, found in enumerate(scenes):
         axes = place(page, _LEFT + column * (wide + _GAP), 0.95, wide, 1.95)
         names = (FITTED, WALK, ONE_WALK, WHOLE_WALK, SINGLE, CYCLES)
         shown = [found.curves[name] for name in names if name in found.curves]
         _curves(axes, shown, found.resolution, labelled=column == 0)
-        _marks(axes, shown, found.curves.get(baseline), seconds)
+        _marks(axes, shown, *moment(found))
         axes.set_title(found.scene.title, color=INK, fontsize=8)
         if column == 0:
             handles, labels = axes.get_legend_handles_labels()
@@ -160,8 +162,10 @@ def _plain_numbers(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def _marks(axes: Axes, curves: Sequence[Curve], baseline: Curve | None, seconds: float) -> None:
-    """A line at a time, and at each curve how many times less squared error it has there."""
+def _marks(axes: Axes, curves: Sequence[Curve], name: str, seconds: float) -> None:
+    """A line at a time, and at each curve how many times less squared error it has there than the
+    curve of this name."""
+    baseline = next((curve for curve in curves if curve.variant == name), None)
     if baseline is None or baseline.error_at(seconds) is None:
         return
     axes.axvline(seconds, color=FAINT, lw=0.6, ls="--")
@@ -174,13 +178,9 @@ def _marks(axes: Axes, curves: Sequence[Curve], baseline: Curve | None, seconds:
         level = 100.0 * curve.error_at(seconds)
         axes.plot([seconds], [level], "s", color=COLOURS[curve.variant], ms=3.5)
         if curve.variant in (FITTED, WALK, EXACT, CYCLES):
-            axes.annotate(_times(found), (seconds, level), (4, 3), textcoords="offset points",
+            axes.annotate(times_text(found), (seconds, level), (4, 3), textcoords="offset points",
                           fontsize=7, color=COLOURS[curve.variant],
                           path_effects=_HALO)  # fmt: skip
-
-
-def _times(value: float) -> str:
-    return f"{value:.0f}" if value >= 9.95 else f"{value:.2g}"
 
 
 def _sweep(

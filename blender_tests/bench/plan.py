@@ -240,7 +240,7 @@ QUICK = (
         SINGLE, FITTED, WALK, EXACT, CYCLES, CYCLES_SVM
     ),
     SLABS[2].shortened((16,) * QUICK_ROUNDS).with_variants(SINGLE, FITTED, WALK, ONE_WALK, CYCLES),
-    BALLS[0].shortened((32,) * QUICK_ROUNDS).with_variants(SINGLE, FITTED, WALK, ONE_WALK, CYCLES),
+    BALLS[0].shortened((64,) * QUICK_ROUNDS).with_variants(SINGLE, FITTED, WALK, ONE_WALK, CYCLES),
     SWEEPS["bounces_showcase"].shortened((16,) * QUICK_ROUNDS).with_variants(
         "Walk, MaxBounces 2", "Walk, MaxBounces 16"
     ),

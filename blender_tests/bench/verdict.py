@@ -44,7 +44,7 @@ def wins(found: Sequence[SceneFindings]) -> list[str]:
             when = "at all times" if start <= every[0][0] else f"from {start:.2g} s on"
             lines.append(
                 f"{one.scene.title}: {quality} has the smaller error {when}; in the end its "
-                f"squared error is {_times(every[-1][1])} times smaller."
+                f"squared error is {times_text(every[-1][1])} times smaller."
             )
     return lines
 
@@ -59,16 +59,16 @@ def _lost(one: SceneFindings, quality: str) -> list[str]:
     if len(behind) == len(every):
         lines.append(
             f"{title}: {quality} has the larger error at all times, {every[0][0]:.2g} to "
-            f"{every[-1][0]:.2g} s; its squared error is {_times(1.0 / max(behind))} to "
-            f"{_times(1.0 / min(behind))} times Cycles'."
+            f"{every[-1][0]:.2g} s; its squared error is {times_text(1.0 / max(behind))} to "
+            f"{times_text(1.0 / min(behind))} times Cycles'."
         )
     elif behind:
         lines.append(
             f"{title}: {quality} has the larger error until {_last_start(every):.2g} s, in squares "
-            f"up to {_times(1.0 / min(behind))} times Cycles'."
+            f"up to {times_text(1.0 / min(behind))} times Cycles'."
             if every[-1][1] > 1.0
             else f"{title}: {quality} has the larger error in the end, in squares "
-            f"{_times(1.0 / every[-1][1])} times Cycles'."
+            f"{times_text(1.0 / every[-1][1])} times Cycles'."
         )
     ours, theirs = one.curves[quality], one.curves[CYCLES]
     mine, other = ours.bias, theirs.bias
@@ -97,7 +97,8 @@ def _last_start(every: list[tuple[float, float]]) -> float:
     return start
 
 
-def _times(value: float) -> str:
+def times_text(value: float) -> str:
+    """A ratio to two figures, or to whole numbers."""
     return f"{value:.2g}" if value < 9.95 else f"{value:.0f}"
 
 
