@@ -10,6 +10,8 @@ from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 from blender_tests.addon.test_operators import linked_objects, new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 OTHER = {"CONDUCTOR": "DIELECTRIC", "DIELECTRIC": "DIFFUSE", "DIFFUSE": "CONDUCTOR"}
 
 

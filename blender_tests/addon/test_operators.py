@@ -8,6 +8,8 @@ import pytest
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 def new_object(bpy, data, name="Thing"):
     obj = bpy.data.objects.new(name, data)

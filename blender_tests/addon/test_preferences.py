@@ -6,6 +6,8 @@ import pytest
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def stored(registered):
