@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     proof = None
     if arguments.prove:
         try:
-            proof = prove(path, arguments.time_limit, lambda text: print(text, file=sys.stderr))
+            proof = prove(path, arguments.time_limit, lambda now: print(now.text, file=sys.stderr))
         except ProofError as error:
             raise CommandError(f"{path} was not proved. {error}") from error
         findings += proof.findings(path)

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from ..nodes.analyse import Report
 
 TOLERANCE_PROPERTY = "microbounce_analysis_tolerance"
+# What finding the shares of the picture may take, so that no scene holds Blender up for long.
+_SECONDS = 5.0
 
 # The last analysis, with the file to which it belongs; nothing of it is stored in the file.
 _kept: "tuple[str, Report] | None" = None
@@ -61,7 +63,7 @@ class MICROBOUNCE_OT_analyse(bpy.types.Operator):
         manager = context.window_manager
         manager.progress_begin(0.0, 1.0)
         try:
-            report = analyse(context, self.tolerance, manager.progress_update)
+            report = analyse(context, self.tolerance, manager.progress_update, _SECONDS)
         finally:
             manager.progress_end()
         _kept = (bpy.data.filepath, report)

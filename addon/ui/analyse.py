@@ -41,6 +41,9 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
         return
     if not report.has_camera:
         layout.label(text="Shares are equal: there is no camera to find them", icon="INFO")
+    if report.part < 1.0:
+        text = label("Shares are rough: time was over at {part} of the rays", part=percent(report.part))
+        layout.label(text=text, icon="INFO")
     changes = report.changes
     rows = (*changes, *(row for row in report.rows if row not in changes))
     for row in rows[:_MOST_ROWS]:

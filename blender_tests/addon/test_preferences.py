@@ -9,16 +9,6 @@ from blender_tests.addon.support import surface_material
 pytestmark = pytest.mark.usefixtures("compiled_once")
 
 
-@pytest.fixture
-def stored(registered):
-    """The preferences as Blender keeps them for an extension that is enabled."""
-    addons = registered.context.preferences.addons
-    entry = addons.new()
-    entry.module = "addon"
-    yield entry.preferences
-    addons.remove(addons["addon"])
-
-
 def current(bpy):
     from addon.ui.preferences import preferences
 
