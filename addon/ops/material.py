@@ -8,6 +8,7 @@ from ..nodes.group import GROUP_ERRORS, new_material
 from ..ui.preferences import preferences
 from .kinds import KIND_ITEMS
 from .osl import osl_status
+from .polled import Polled
 
 # Types whose data hold surface materials. A volume has no surface, and grease pencil has its own.
 _TYPES = frozenset({"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD"})
@@ -44,7 +45,7 @@ def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None
     slot.material = material
 
 
-class MICROBOUNCE_OT_add_material(bpy.types.Operator):
+class MICROBOUNCE_OT_add_material(Polled, bpy.types.Operator):
     """Give the active object a new material of ours."""
 
     bl_idname = "microbounce.add_material"
@@ -63,12 +64,9 @@ class MICROBOUNCE_OT_add_material(bpy.types.Operator):
         return f"Put a new {name} material into the active object's material slot"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it for an object that can be given a material; say why otherwise."""
-        reason = obstacle(context.object)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why not, with the remedy."""
+        return obstacle(context.object)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Make the material, assign it, and warn where its shader will not run."""
