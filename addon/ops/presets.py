@@ -17,6 +17,7 @@ from ..nodes.apply import (
     preset_material,
 )
 from ..nodes.group import GROUP_ERRORS
+from ..ui.previews import icon
 from . import material as object_material
 from .osl import osl_status
 from .polled import Polled
@@ -25,7 +26,7 @@ from .polled import Polled
 APPLY_ERRORS = (PresetError, ApplyError, TypeError, *GROUP_ERRORS)
 
 # Blender keeps no copies of the texts of a list that is made anew: they must stay referenced.
-_search_items: list[tuple[str, str, str]] = []
+_search_items: list[tuple[str, str, str, int, int]] = []
 
 
 def shown_material(context: bpy.types.Context) -> bpy.types.Material | None:
@@ -209,17 +210,20 @@ def described(item: Preset | Finish) -> str:
     return f"{item.name}: {item.description.rstrip('.')}. Source: {item.source.title.rstrip('.')}"
 
 
-def search_items() -> list[tuple[str, str, str]]:
-    """Return the items of the search: identifier, a name that holds kind and tags, tooltip."""
+def search_items() -> list[tuple[str, str, str, int, int]]:
+    """Return the items of the search, with names that hold kind and tags, and with pictures."""
     found = presets()
-    if [item[0] for item in _search_items] != [item.identifier for item in found]:
+    shown = [(item.identifier, icon(item.identifier)) for item in found]
+    if [(item[0], item[3]) for item in _search_items] != shown:
         _search_items[:] = [
             (
                 item.identifier,
                 f"{item.name} ({', '.join((KINDS[item.kind].label, *item.tags))})",
                 described(item),
+                picture,
+                number,
             )
-            for item in found
+            for number, (item, (_, picture)) in enumerate(zip(found, shown, strict=True))
         ]
     return _search_items
 

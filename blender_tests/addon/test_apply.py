@@ -323,6 +323,19 @@ def test_search_finds_all_presets_by_name_kind_and_tags(registered):
     assert registered.data.materials[0].name == presets.preset(identifier).name
 
 
+def test_search_shows_the_pictures(registered, monkeypatch):
+    from addon.ops import presets as ops
+
+    numbers = {preset.identifier: 100 + n for n, preset in enumerate(presets.presets())}
+    monkeypatch.setattr(ops, "icon", numbers.get)  # without a window all icons are 0
+    items = ops.search_items()
+    assert {item[0]: item[3] for item in items} == numbers
+    assert [item[4] for item in items] == list(range(len(numbers)))
+    new_object(registered, registered.data.meshes.new("Mesh"))
+    registered.ops.microbounce.search_preset(identifier="conductor/gold")
+    assert registered.data.materials[0].name == "Gold"
+
+
 def test_a_corrupted_preset_is_named_and_others_work(
     registered, tmp_path, monkeypatch, fresh_presets
 ):
