@@ -23,12 +23,17 @@ def obstacle(obj: bpy.types.Object | None) -> str:
         return f"'{obj.name}' is of type {kind} and has no surface: select a mesh or a curve"
     if not obj.is_editable:
         return f"'{obj.name}' is linked from a library: make it local or a library override"
-    if not obj.material_slots and not obj.data.is_editable:
+    if not obj.material_slots and not _keeps_materials(obj.data):
         return (
             f"The data of '{obj.name}' are linked from a library and have no material slot: "
             "make the data local"
         )
     return ""
+
+
+def _keeps_materials(data: bpy.types.ID) -> bool:
+    """Return whether a file keeps what is put into the materials of an object's `data`."""
+    return data.is_editable and data.override_library is None
 
 
 def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None:
@@ -40,7 +45,7 @@ def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None
         obj.data.materials.append(material)
         return
     slot = obj.material_slots[obj.active_material_index]
-    if slot.link == "DATA" and not obj.data.is_editable:
+    if slot.link == "DATA" and not _keeps_materials(obj.data):
         slot.link = "OBJECT"
     slot.material = material
 

@@ -28,7 +28,11 @@ class MICROBOUNCE_OT_enable_osl(Polled, bpy.types.Operator):
     def obstacle(cls, context: bpy.types.Context) -> str:
         """Return why it would not help; "" where it does."""
         status = osl_status(context)
-        return "" if status.can_enable else status.message or "Open Shading Language is on"
+        if not status.can_enable:
+            return status.message or "Open Shading Language is on"
+        if not context.scene.is_editable:
+            return f"The scene '{context.scene.name}' is linked from a library: switch it on there"
+        return ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set the switch; warn where the device stands in the way or lights will be missed."""
