@@ -10,6 +10,7 @@ import bpy
 from ..nodes.find import surface_materials
 from ..nodes.group import GROUP_ERRORS
 from .osl import osl_status
+from .polled import Polled
 from .presets import shown_material
 
 # Imported when it is first used, so that the extension starts sooner.
@@ -48,7 +49,7 @@ def _needs_materials(scope: str) -> str:
     }[scope]
 
 
-class _Converts:
+class _Converts(Polled):
     """What both directions share; a subclass has a `planner` and a `converter`."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -59,12 +60,9 @@ class _Converts:
     )
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where the file has materials; say why otherwise."""
-        found = bool(surface_materials())
-        if not found:
-            cls.poll_message_set(_needs_materials("ALL"))
-        return found
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that the file has no materials; "" where it has."""
+        return "" if surface_materials() else _needs_materials("ALL")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Convert, and report every node that changes its look or stays, and a summary."""

@@ -10,6 +10,8 @@ from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 from blender_tests.addon.test_operators import linked_objects, new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 OTHER = {"CONDUCTOR": "DIELECTRIC", "DIELECTRIC": "DIFFUSE", "DIFFUSE": "CONDUCTOR"}
 
 
@@ -319,6 +321,19 @@ def test_search_finds_all_presets_by_name_kind_and_tags(registered):
     identifier = items[-1][0]
     assert registered.ops.microbounce.search_preset(identifier=identifier) == {"FINISHED"}
     assert registered.data.materials[0].name == presets.preset(identifier).name
+
+
+def test_search_shows_the_pictures(registered, monkeypatch):
+    from addon.ops import presets as ops
+
+    numbers = {preset.identifier: 100 + n for n, preset in enumerate(presets.presets())}
+    monkeypatch.setattr(ops, "icon", numbers.get)  # without a window all icons are 0
+    items = ops.search_items()
+    assert {item[0]: item[3] for item in items} == numbers
+    assert [item[4] for item in items] == list(range(len(numbers)))
+    new_object(registered, registered.data.meshes.new("Mesh"))
+    registered.ops.microbounce.search_preset(identifier="conductor/gold")
+    assert registered.data.materials[0].name == "Gold"
 
 
 def test_a_corrupted_preset_is_named_and_others_work(

@@ -10,6 +10,8 @@ import pytest
 from addon.core import VERSION
 from blender_tests.addon.support import small_scene
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def clean(registered, tmp_path):

@@ -8,6 +8,8 @@ import pytest
 from addon.core.presets import finishes, presets
 from blender_tests.addon.support import native_material, small_scene
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def file(registered, tmp_path):

@@ -11,17 +11,13 @@ from blender_tests.addon.node_trees import (
     GLASS,
     METALLIC,
     PRINCIPLED,
-    compile_once,
     dump,
     material_with,
 )
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 TYPES = {"Metal": METALLIC, "Glass": GLASS, "Matte": DIFFUSE, "Mixture": PRINCIPLED}
-
-
-@pytest.fixture(autouse=True)
-def each_shader_is_compiled_once(monkeypatch):
-    monkeypatch.setattr("addon.nodes.group.compile_source", compile_once)
 
 
 @pytest.fixture

@@ -19,6 +19,8 @@ from blender_tests.addon.node_trees import (
 )
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 RED = (1.0, 0.0, 0.0, 1.0)
 METAL, CLEAR = {"Metallic": 1.0}, {"Transmission_Weight": 1.0}
 VALUES = [

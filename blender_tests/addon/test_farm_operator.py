@@ -9,6 +9,8 @@ from blender_tests.addon.fake_run import FakeRun
 from blender_tests.addon.support import small_scene
 from blender_tests.addon.test_panels import Record
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 PANELS = ("MICROBOUNCE_PT_farm_material", "MICROBOUNCE_PT_farm_shader_editor")
 
 

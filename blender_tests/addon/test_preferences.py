@@ -6,6 +6,8 @@ import pytest
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 def current(bpy):
     from addon.ui.preferences import preferences

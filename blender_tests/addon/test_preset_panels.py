@@ -11,6 +11,8 @@ from blender_tests.addon.support import surface_material
 from blender_tests.addon.test_apply import OTHER, first_preset, our_material
 from blender_tests.addon.test_operators import new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 class Record:
     """Stands in for a layout: keeps texts, menus, buttons and icons, and checks that they exist."""

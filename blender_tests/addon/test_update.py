@@ -6,13 +6,10 @@ import pytest
 from addon.core.kinds import KINDS
 from addon.nodes.group import STAMP_KEY, VERSION_KEY, material_group, new_material
 from addon.nodes.update import old_groups, update_materials
-from blender_tests.addon.node_trees import compile_once, curve_paths
+from blender_tests.addon.node_trees import curve_paths
 from blender_tests.addon.support import run_blender, surface_material
 
-
-@pytest.fixture(autouse=True)
-def each_shader_is_compiled_once(monkeypatch):
-    monkeypatch.setattr("addon.nodes.group.compile_source", compile_once)
+pytestmark = pytest.mark.usefixtures("compiled_once")
 
 
 def make_old(group, version="0.0.9"):

@@ -13,6 +13,8 @@ from addon.core.presets import PresetError
 from blender_tests.addon.test_apply import holds, our_material, state
 from blender_tests.addon.test_operators import new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def folder(registered, tmp_path, monkeypatch):
