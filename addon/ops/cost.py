@@ -99,10 +99,14 @@ class CostOptions:
         description="Folder for the page, the tables and the plot; // is the file's own",
         default="//microbounce_cost",
         subtype="DIR_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
 
-    def options(self) -> Options:
-        """Return the options; raises PlanError for what makes no sense."""
+    def asked(self) -> Options:
+        """Return what is asked for; raises PlanError for what makes no sense.
+
+        It is not called `options`: every operator has something else by that name.
+        """
         return Options(
             samples=self.samples,
             percentage=self.percentage,
@@ -153,7 +157,7 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, bpy.types.Operator):
         from ..nodes.cost.run import CostError, measure
 
         try:
-            report = measure(context.scene, context.view_layer, self.options(), self.output)
+            report = measure(context.scene, context.view_layer, self.asked(), self.output)
         except (CostError, PlanError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -166,7 +170,7 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, bpy.types.Operator):
         from ..nodes.cost.run import CostError, CostRun
 
         try:
-            self._run = CostRun(context.scene, context.view_layer, self.options(), self.output)
+            self._run = CostRun(context.scene, context.view_layer, self.asked(), self.output)
         except (CostError, PlanError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -201,12 +205,13 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, bpy.types.Operator):
         return self._finish(report)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """End what is under way, also when Blender quits or loads another file."""
+        """End what is under way."""
         State.progress = None
         self._run.close()
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
+        if context.workspace is not None:  # None where Blender quits or loads another file
+            context.workspace.status_text_set(None)
         _redraw_panels(context)
 
     def _show_progress(self, context: bpy.types.Context) -> None:

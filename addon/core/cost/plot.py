@@ -95,7 +95,8 @@ def draw_plot(report: Report) -> list[Line | Dot | Label]:
 
 def svg(steps: list[Line | Dot | Label]) -> str:
     """Return the drawing as an SVG element, its ink and grid in the page's own colours."""
-    parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="Error over time">']
+    box = f'viewBox="0 0 {WIDTH} {HEIGHT}" font-size="12"'
+    parts = [f'<svg {box} role="img" aria-label="Error over time">']
     for step in steps:
         if isinstance(step, Line):
             points = " ".join(f"{x:.1f},{y:.1f}" for x, y in step.points)
