@@ -72,8 +72,8 @@ def files(found: Mapping[str, SceneFindings], whole: bool) -> dict[str, str]:
         headline = [found[name] for name in HEADLINE if f"{name}.svg" in made]
         if headline:
             made["headline.svg"] = draw.draw_headline(headline)
-        if any(one.scene.is_sweep for one in found.values()):
-            made["sweeps.svg"] = draw.draw_sweeps(dict(found))
+        if sweeps := draw.draw_sweeps(dict(found)):
+            made["sweeps.svg"] = sweeps
     aims = targets(found)
     return made | {
         "README.md": page.page(found, aims),

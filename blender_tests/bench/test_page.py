@@ -167,3 +167,11 @@ def test_wrong_use_is_told(arguments, message, capsys):
         command.main(arguments)
     assert left.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_sweep_without_its_whole_range_is_not_drawn():
+    sweep = SWEEPS["bounces_showcase"]
+    short = timed(sweep, {"Walk, MaxBounces 2": 0.01, "Walk, MaxBounces 16": 0.01})
+    made = command.files(findings() | {sweep.name: short}, whole=True)
+    assert "sweeps.svg" not in made
+    assert "sweeps.svg" not in made["README.md"]
