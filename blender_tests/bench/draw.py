@@ -180,8 +180,8 @@ def _marks(axes: Axes, curves: Sequence[Curve], name: str, seconds: float) -> No
         level = 100.0 * curve.error_at(seconds)
         axes.plot([seconds], [level], "s", color=COLOURS[curve.variant], ms=3.5)
         if curve.variant in (FITTED, WALK, EXACT, CYCLES):
-            axes.annotate(f"{times_text(found)}×", (seconds, level), (4, 3), textcoords="offset points",
-                          fontsize=7, color=COLOURS[curve.variant],
+            axes.annotate(f"{times_text(found)}×", (seconds, level), (4, 3), fontsize=7,
+                          textcoords="offset points", color=COLOURS[curve.variant],
                           path_effects=_HALO)  # fmt: skip
 
 

@@ -133,7 +133,10 @@ def _measured(aim: Target) -> str:
 def _verdict(aim: Target) -> str:
     if math.isnan(aim.value):
         return "not told"
-    return "reached" if aim.reached else "**not reached**"
+    verdict = "reached" if aim.reached else "**not reached**"
+    if aim.low <= aim.limit <= aim.high:
+        verdict += f", but not in all {aim.span}" if aim.reached else f", but in some {aim.span}"
+    return verdict
 
 
 def _losses(found: Sequence[SceneFindings]) -> str:
