@@ -110,7 +110,9 @@ def run(arguments: argparse.Namespace) -> int:
     path = open_file(arguments)
     context = bpy.context
     try:
-        report = measure(context.scene, context.view_layer, options, arguments.folder, _tell)
+        report = measure(
+            context.scene, context.view_layer, options, arguments.folder, _tell, unchanged=True
+        )
     except CostError as error:
         raise CommandError(f"{path}: {error}") from error
     text = Path(report["files"]["text"]).read_text("utf-8")

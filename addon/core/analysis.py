@@ -7,6 +7,7 @@ difference from all bounces over that of all bounces, in the hardest of the ligh
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 
 from .kinds import KINDS
@@ -123,6 +124,7 @@ def larger_alpha(roughness: float, anisotropy: float) -> float:
     return min(roughness * roughness / (1.0 - 0.9 * anisotropy) ** 0.5, 1.0)
 
 
+@lru_cache(maxsize=64)
 def missing_after(surface: Surface) -> tuple[float, ...]:
     """Return what is missing after bounce 1, 2, ... of the surface's own light and colours."""
     white = [

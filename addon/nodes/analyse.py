@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Analyses all our materials of a scene, and applies what was proposed."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,7 +10,7 @@ import bpy
 from ..core.analysis import Proposal, propose, time_ratio, unchanged
 from ..core.picture_error import picture_error
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
-from .share import picture_shares, shown_materials
+from .share import Shares, picture_shares, shown_materials
 
 
 @dataclass(frozen=True)
@@ -50,12 +51,14 @@ class Report:
     """The analysis of a scene: the rows by falling share.
 
     has_camera -- False where the shares could not be found and all materials weigh the same
+    part       -- of the rays that found the shares, 0 to 1: less than 1 where time was over
     """
 
     scene: str
     tolerance: float
     rows: tuple[Row, ...]
     has_camera: bool
+    part: float = 1.0
 
     @property
     def changes(self) -> tuple[Row, ...]:
@@ -83,6 +86,7 @@ class Report:
             "scene": self.scene,
             "tolerance": self.tolerance,
             "has_camera": self.has_camera,
+            "part": round(self.part, 4),
             "error_now": round(self.error_now, 5),
             "error_then": round(self.error_then, 5),
             "time_ratio": round(self.time_ratio, 3),
@@ -94,28 +98,23 @@ def analyse(
     context: bpy.types.Context,
     tolerance: float,
     progress: Callable[[float], None] = lambda part: None,
+    seconds: float = math.inf,
 ) -> Report:
     """Analyse the scene of `context` and return what is proposed; nothing is changed.
 
     tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
     progress  -- is told the part that is done, from 0 to 1
+    seconds   -- that finding the shares may take, beside what Blender needs to prepare the scene
     """
     if not 0.0 < tolerance <= 1.0:
         raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
     found = found_nodes(shown_materials(context))
-    clear = {
-        material.name_full
-        for one in found
-        if one.kind.identifier == "DIELECTRIC"
-        for material in one.materials
-    }
-    shares = picture_shares(context, lambda material: material.name_full in clear, progress)
+    shares = picture_shares(context, progress, seconds)
     rows = []
     for one in found:
-        share = shares.of(one.materials, len(found))
-        rows.append(_row(one, share, len(found), tolerance))
+        rows.append(_row(one, shares, len(found), tolerance))
     rows.sort(key=lambda row: (-row.proposal.share, row.name))
-    return Report(context.scene.name, tolerance, tuple(rows), shares.has_camera)
+    return Report(context.scene.name, tolerance, tuple(rows), shares.has_camera, shares.part)
 
 
 def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
@@ -135,8 +134,11 @@ def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[s
     return done, left
 
 
-def _row(found: Found, share: float, count: int, tolerance: float) -> Row:
+def _row(found: Found, shares: Shares, count: int, tolerance: float) -> Row:
     surface, notes = read_surface(found)
+    share = shares.of(found.materials, count)
+    if shares.are_unmet(found.materials):
+        notes = (*notes, f"Rays cannot meet all that shows it: its share is at least 1 of {count}")
     now = read_choice(found)
     reason = obstacle(found)
     if reason:

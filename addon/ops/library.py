@@ -5,6 +5,9 @@ from pathlib import Path
 
 import bpy
 
+from ..ui.preferences import preferences
+from .polled import Polled
+
 NAME = "Microbounce"
 BLEND = "microbounce.blend"
 
@@ -14,20 +17,34 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _FOLDERS = (_PACKAGE / "assets", _PACKAGE.parent / "build" / "assets")
 
 
-def library_folder() -> Path | None:
-    """Return the folder of the asset library, None where this copy was made without it."""
-    return next((folder for folder in _FOLDERS if (folder / BLEND).is_file()), None)
+def library_folder(context: bpy.types.Context) -> Path | None:
+    """Return the folder of the asset library: the one in the preferences, else the extension's own.
+
+    None where there is no library in it.
+    """
+    chosen = preferences(context).library_path
+    folders = (Path(bpy.path.abspath(chosen)),) if chosen else _FOLDERS
+    return next((folder for folder in folders if (folder / BLEND).is_file()), None)
 
 
-def registered_libraries(
-    preferences: bpy.types.Preferences,
-) -> list[bpy.types.UserAssetLibrary]:
-    """Return the preferences' libraries that are a folder of ours, be it there or not."""
-    libraries = preferences.filepaths.asset_libraries
-    return [item for item in libraries if item.path and Path(item.path).resolve() in _FOLDERS]
+def registered_libraries(context: bpy.types.Context) -> list[bpy.types.UserAssetLibrary]:
+    """Return Blender's asset libraries that are ours: in a folder of ours, or with our file."""
+    libraries = context.preferences.filepaths.asset_libraries
+    paths = [(item, Path(item.path).resolve()) for item in libraries if item.path]
+    return [item for item, path in paths if path in _FOLDERS or (path / BLEND).is_file()]
 
 
-class MICROBOUNCE_OT_register_library(bpy.types.Operator):
+def _missing(context: bpy.types.Context) -> str:
+    chosen = preferences(context).library_path
+    if chosen:
+        return f"There is no {BLEND} in {chosen}: choose another folder in the preferences"
+    return (
+        "This copy of the extension has no asset library: install one that has, "
+        "or build it with `make assets`"
+    )
+
+
+class MICROBOUNCE_OT_register_library(Polled, bpy.types.Operator):
     """Add the asset library to the preferences."""
 
     bl_idname = "microbounce.register_library"
@@ -36,28 +53,23 @@ class MICROBOUNCE_OT_register_library(bpy.types.Operator):
     bl_options = {"REGISTER"}  # undo leaves the preferences alone
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where there is a library that was not added; say why otherwise."""
-        if library_folder() is None:
-            cls.poll_message_set(
-                "This copy of the extension has no asset library: install one that has, "
-                "or build it with `make assets`"
-            )
-            return False
-        if registered_libraries(context.preferences):
-            cls.poll_message_set("The asset library is in the preferences already")
-            return False
-        return True
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that there is no library, or that it was added already; else ""."""
+        if library_folder(context) is None:
+            return _missing(context)
+        if registered_libraries(context):
+            return "The asset library is in the preferences already"
+        return ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Add it; saving the preferences is left to the user's own setting."""
-        preferences = context.preferences
-        preferences.filepaths.asset_libraries.new(name=NAME, directory=str(library_folder()))
-        preferences.is_dirty = True
+        libraries = context.preferences.filepaths.asset_libraries
+        libraries.new(name=NAME, directory=str(library_folder(context)))
+        context.preferences.is_dirty = True
         return {"FINISHED"}
 
 
-class MICROBOUNCE_OT_unregister_library(bpy.types.Operator):
+class MICROBOUNCE_OT_unregister_library(Polled, bpy.types.Operator):
     """Take the asset library out of the preferences."""
 
     bl_idname = "microbounce.unregister_library"
@@ -66,19 +78,17 @@ class MICROBOUNCE_OT_unregister_library(bpy.types.Operator):
     bl_options = {"REGISTER"}  # undo leaves the preferences alone
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where the library was added; say so otherwise."""
-        if registered_libraries(context.preferences):
-            return True
-        cls.poll_message_set("The asset library is not in the preferences")
-        return False
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that the library was not added; "" where it was."""
+        if registered_libraries(context):
+            return ""
+        return "The asset library is not in the preferences"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove it, and no other."""
-        preferences = context.preferences
-        for library in registered_libraries(preferences):
-            preferences.filepaths.asset_libraries.remove(library)
-        preferences.is_dirty = True
+        for library in registered_libraries(context):
+            context.preferences.filepaths.asset_libraries.remove(library)
+        context.preferences.is_dirty = True
         return {"FINISHED"}
 
 

@@ -80,14 +80,16 @@ def _draw_progress(layout: bpy.types.UILayout) -> None:
 def _draw_report(
     layout: bpy.types.UILayout, context: bpy.types.Context, report: dict[str, object]
 ) -> None:
+    setting = report["setting"]
     box = layout.box()
+    box.label(text=f"{setting['file']}, frame {setting['frame']}", icon="FILE_BLEND")
     column = box.column(align=True)
     scale = context.preferences.system.ui_scale
     width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
     for line in textwrap.wrap(report["sentence"], width):
         column.label(text=line)
     grid = box.grid_flow(row_major=True, columns=4, even_columns=False, align=True)
-    error = 100 * report["setting"]["error"]
+    error = 100 * setting["error"]
     for heading in ("Variant", f"To {error:g} %", "Bias", "Noise"):
         grid.label(text=heading)
     for row in report["variants"]:
@@ -100,13 +102,16 @@ def _draw_report(
 
 
 def _cells(row: dict[str, object]) -> tuple[str, ...]:
-    time = row["seconds_to_error"]
+    seconds = row["seconds_to_error"]
+    time = "never" if seconds is None else _duration(seconds)
+    if row["seconds_to_error_open"]:
+        time += " ?"
     bias = f"{100 * row['bias']:.2g} %"
     if not row["bias_resolved"]:
         bias = f"< {100 * row['bias_resolution']:.2g} %"
     return (
         row["variant"],
-        "never" if time is None else _duration(time),
+        time,
         bias,
         f"{100 * row['noise']:.2g} %",
     )

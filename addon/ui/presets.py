@@ -10,7 +10,6 @@ from ..ops.kinds import KIND_ITEMS
 from ..ops.library import (
     MICROBOUNCE_OT_register_library,
     MICROBOUNCE_OT_unregister_library,
-    library_folder,
     registered_libraries,
 )
 from ..ops.presets import (
@@ -113,9 +112,9 @@ def _draw_source(layout: bpy.types.UILayout, node: bpy.types.Node) -> None:
 
 
 def _draw_library(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    if registered_libraries(context.preferences):
+    if registered_libraries(context):
         layout.operator(MICROBOUNCE_OT_unregister_library.bl_idname, text="Remove Asset Library")
-    elif library_folder() is not None:
+    else:  # greyed out where there is none: its tooltip says what to do
         layout.operator(MICROBOUNCE_OT_register_library.bl_idname, text="Add Asset Library")
 
 

@@ -34,6 +34,16 @@ def registered(empty_file):
 
 
 @pytest.fixture
+def stored(registered):
+    """The preferences as Blender keeps them for an extension that is enabled."""
+    addons = registered.context.preferences.addons
+    entry = addons.new()
+    entry.module = "addon"
+    yield entry.preferences
+    addons.remove(addons["addon"])
+
+
+@pytest.fixture
 def command(registered, capfd):
     """Runs the command; returns its exit code, standard output and standard error."""
     from addon.command.main import main

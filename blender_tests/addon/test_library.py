@@ -181,6 +181,22 @@ def test_a_folder_that_went_missing(offered):
     assert ops.unregister_library() == {"FINISHED"}, "an entry that leads nowhere can be removed"
 
 
+def test_the_folder_of_the_preferences_goes_before_the_extensions_own(offered, stored, tmp_path):
+    bpy, _ = offered
+    ops = bpy.ops.microbounce
+    libraries = bpy.context.preferences.filepaths.asset_libraries
+    shared = tmp_path / "shared ü"
+    stored.library_path = str(shared)
+    with pytest.raises(RuntimeError, match=r"There is no microbounce\.blend in .*shared ü: choose"):
+        ops.register_library()
+    shared.mkdir()
+    (shared / build_assets.BLEND).write_bytes(b"")
+    ops.register_library()
+    assert [item.path for item in libraries][-1] == str(shared)
+    stored.library_path = ""  # the entry is still known as ours
+    assert ops.unregister_library() == {"FINISHED"}
+
+
 def test_library_and_operators_agree_on_the_file_name():
     from addon.ops import library as ops
 

@@ -11,6 +11,8 @@ from blender_tests.addon.support import surface_material
 from blender_tests.addon.test_apply import OTHER, first_preset, our_material
 from blender_tests.addon.test_operators import new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 class Record:
     """Stands in for a layout: keeps texts, menus, buttons and icons, and checks that they exist."""
@@ -178,7 +180,7 @@ def test_the_library_button_follows_the_preferences(registered, monkeypatch, tmp
     from addon.ops import library
 
     monkeypatch.setattr(library, "_FOLDERS", (tmp_path,))
-    assert not draw(registered, PANEL).named("register_library")
+    assert not registered.ops.microbounce.register_library.poll()
     (tmp_path / library.BLEND).write_bytes(b"")
     assert draw(registered, PANEL).named("register_library")
     registered.ops.microbounce.register_library()

@@ -142,6 +142,7 @@ class Report:
             "bias_resolution": variant.split.resolution,
             "error": variant.error,
             "seconds_to_error": reached if math.isfinite(reached) else None,
+            "seconds_to_error_open": variant.split.doubtful(self.setting.error),
             "error_at_equal_time": variant.error_at(self.equal_time),
             "flip": variant.flip,
             "memory_mb": variant.cost.memory,

@@ -57,7 +57,7 @@ def measure_job(path: Path) -> None:
     references = load_reference(job["cache"])
     kept = references is not None
     notes = list(job["notes"])
-    total = len(variants) * (1 + options.rounds * (samples + 1)) + (0 if kept else 2 * half)
+    total = 1 + len(variants) * options.rounds * (samples + 1) + (0 if kept else 2 * half)
     tell = _teller(progress, total)
 
     if references is None:
@@ -114,11 +114,10 @@ def _render_rounds(
 
     The rounds go through all variants in turn, so that a load on the machine falls on all of them.
     """
-    for variant in variants:
-        tell(0, f"{variant.title}, warm-up")
-        renderer.show(variant)
-        renderer.render(1, 0)
-        tell(1, f"{variant.title}, warm-up")
+    tell(0, "Warm-up")
+    renderer.show(variants[0])
+    renderer.render(1, 0)
+    tell(1, "Warm-up")
     renders: dict[str, list[tuple[Rendered, Rendered]]] = {v.key: [] for v in variants}
     for seed in range(1, rounds + 1):
         for variant in variants:

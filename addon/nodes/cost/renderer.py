@@ -113,7 +113,10 @@ def placed_nodes() -> list[Placed]:
 
 
 def _prepare(scene: bpy.types.Scene, layer: str, options: Options) -> None:
-    """Switch off what biases pixels, changes the number of samples, or draws over the picture."""
+    """Switch off what biases pixels, changes the number of samples, or draws over the picture.
+
+    Clamping stays as the user has it: without it a few bright pixels may hide all else.
+    """
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
     for view_layer in scene.view_layers:
@@ -132,7 +135,6 @@ def _prepare(scene: bpy.types.Scene, layer: str, options: Options) -> None:
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_animated_seed = False
     cycles.use_guiding = False
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.light_sampling_threshold = 0.0
     cycles.time_limit = 0.0
     cycles.use_layer_samples = "IGNORE"

@@ -24,6 +24,8 @@ from .renderer import placed_nodes
 OUTPUT = "//microbounce_cost"
 IMAGE = "Microbounce Cost"
 _POLL_SECONDS = 0.1
+# That the other Blender has to end by itself: it may be at work where it cannot see that it should.
+_END_SECONDS = 0.5
 
 
 class CostError(RuntimeError):
@@ -48,15 +50,21 @@ class CostRun:
     """A measurement that is under way; close() it whatever happens, or use it with `with`."""
 
     def __init__(
-        self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer, options: Options, output: str
+        self,
+        scene: bpy.types.Scene,
+        layer: bpy.types.ViewLayer,
+        options: Options,
+        output: str,
+        unchanged: bool = False,
     ) -> None:
         """Check everything, save a copy of the file and start.
 
-        `output` is the folder for the reports, where "//" means beside the file. Raises CostError.
+        `output` is the folder for the reports, where "//" means beside the file. `unchanged` says
+        that the scene is as it is in the file, also where Blender does not know. Raises CostError.
         """
         check_scene(scene)
         folder = output_folder(output)
-        kept = cache_file(scene, layer.name, options)
+        kept = cache_file(scene, layer.name, options, unchanged)
         notes = _notes(scene, layer, options, kept)
         self._process: subprocess.Popen | None = None
         try:
@@ -113,10 +121,10 @@ class CostRun:
 
     def close(self) -> None:
         """End the other Blender, if it runs, and remove the temporary files."""
-        if self.running:
-            self._process.terminate()
+        if self._process is not None:
+            self._process.stdin.close()
             try:
-                self._process.wait(5.0)
+                self._process.wait(_END_SECONDS)
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
@@ -137,7 +145,7 @@ class CostRun:
                 [*command, "--", str(path)],
                 # An empty folder for user files: neither preferences nor installed extensions.
                 env=os.environ | {"BLENDER_USER_RESOURCES": str(resources)},
-                stdin=subprocess.DEVNULL,
+                stdin=subprocess.PIPE,  # it ends when this closes, also where Blender crashes
                 stdout=log,
                 stderr=errors,
                 creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
@@ -155,9 +163,13 @@ def measure(
     options: Options,
     output: str,
     tell: Callable[[Progress], None] = lambda progress: None,
+    unchanged: bool = False,
 ) -> dict[str, object]:
-    """Measure and wait for it; return the report. `tell` gets each new state. Raises CostError."""
-    with CostRun(scene, layer, options, output) as run:
+    """Measure and wait for it; return the report.
+
+    `tell` gets each new state; the rest is as CostRun() has it. Raises CostError.
+    """
+    with CostRun(scene, layer, options, output, unchanged) as run:
         told = None
         while run.running:
             progress = run.progress()
@@ -202,11 +214,15 @@ def output_folder(output: str) -> Path:
 
 
 def load_plot(report: dict[str, object]) -> bpy.types.Image:
-    """Show the plot of a report as the image IMAGE, which is packed into the file."""
-    image = bpy.data.images.get(IMAGE)
-    if image is not None:
-        bpy.data.images.remove(image)
+    """Show the plot of a report as the image IMAGE, and return it.
+
+    It is packed, but Blender saves it with the file only where something uses it.
+    """
+    before = bpy.data.images.get(IMAGE)
     image = bpy.data.images.load(report["files"]["plot"])
+    if before is not None:
+        before.user_remap(image)  # an editor that shows it goes on to
+        bpy.data.images.remove(before)
     image.name = IMAGE
     image.pack()
     return image
@@ -217,9 +233,15 @@ def _notes(
 ) -> tuple[str, ...]:
     """Return what is to know about a measurement. Raises CostError where it has no reference."""
     notes = [
-        "Denoiser, adaptive sampling, clamping, path guiding and light threshold were off; "
-        "rendered on the processor, in a copy of the file."
+        "Denoiser, adaptive sampling, path guiding, light threshold, compositor and sequencer "
+        "were off; rendered on the processor, in a copy of the file."
     ]
+    direct, indirect = scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_indirect
+    if direct or indirect:
+        notes.append(
+            f"All pictures, the reference too, are clamped as the scene is: direct {direct:g}, "
+            f"indirect {indirect:g} (0 is off)."
+        )
     missed = exact_warning(enabled_lamps(layer))
     if missed and options.reference == "EXACT":
         raise CostError(f"Exact is no reference here: take Walk. {missed}")
@@ -228,7 +250,7 @@ def _notes(
     if not scene.cycles.shading_system:
         notes.append("Open Shading Language is off in the scene; in the copy it was on.")
     if not kept:
-        notes.append("The reference was not kept, since the file has unsaved changes.")
+        notes.append("The reference was not kept, since the file may have unsaved changes.")
     return tuple(notes)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's tables of parameters against the one specification of them."""
+"""The tables in docs/parameters.md against the one specification of the parameters."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 
 from addon.core.kinds import KINDS
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "parameters.md"
 ALL = "all three"
 SURFACES_OWN = ("NORMAL", "TANGENT")
 
@@ -16,7 +16,7 @@ def tables() -> dict[str, dict[str, list[str]]]:
     """Rows by their first cell, of each table by the first cell of its head."""
     found: dict[str, dict[str, list[str]]] = {}
     rows: dict[str, list[str]] = {}
-    for line in README.read_text(encoding="utf-8").splitlines():
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
         if not line.startswith("|"):
             rows = {}
             continue
