@@ -110,7 +110,7 @@ def _record(found: Mapping[str, SceneFindings]) -> None:
 def _tell_estimate(trial: Mapping[str, SceneFindings]) -> None:
     for name in ("full", "quick"):
         minutes = estimate.seconds(PLANS[name], trial) / 60.0
-        print(f"The {name} plan takes about {minutes:.0f} minutes where nothing else runs.")
+        print(f"The {name} plan takes about {minutes:.1f} minutes where nothing else runs.")
 
 
 def _check(folder: Path) -> int:
