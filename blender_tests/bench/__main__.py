@@ -72,8 +72,8 @@ def files(found: Mapping[str, SceneFindings], whole: bool) -> dict[str, str]:
         headline = [found[name] for name in HEADLINE if f"{name}.svg" in made]
         if headline:
             made["headline.svg"] = draw.draw_headline(headline)
-        if any(one.scene.is_sweep for one in found.values()):
-            made["sweeps.svg"] = draw.draw_sweeps(dict(found))
+        if sweeps := draw.draw_sweeps(dict(found)):
+            made["sweeps.svg"] = sweeps
     aims = targets(found)
     return made | {
         "README.md": page.page(found, aims),
@@ -110,7 +110,7 @@ def _record(found: Mapping[str, SceneFindings]) -> None:
 def _tell_estimate(trial: Mapping[str, SceneFindings]) -> None:
     for name in ("full", "quick"):
         minutes = estimate.seconds(PLANS[name], trial) / 60.0
-        print(f"The {name} plan takes about {minutes:.0f} minutes where nothing else runs.")
+        print(f"The {name} plan takes about {minutes:.1f} minutes where nothing else runs.")
 
 
 def _check(folder: Path) -> int:

@@ -85,8 +85,9 @@ def draw_headline(scenes: Sequence[SceneFindings]) -> str:
     return svg(page, "Error over time")
 
 
-def draw_sweeps(found: dict[str, SceneFindings]) -> str:
-    """What the limit of bounces, the number of walks and the size of the picture cost."""
+def draw_sweeps(found: dict[str, SceneFindings]) -> str | None:
+    """What the limit of bounces, the number of walks and the size of the picture cost; None where
+    none of that was measured over its whole range."""
     page = Figure(figsize=(WIDTH, 3.9))
     heading(
         page,
@@ -119,7 +120,8 @@ def draw_sweeps(found: dict[str, SceneFindings]) -> str:
         if axes.lines:
             axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.22), fontsize=7, ncols=1,
                         handlelength=2.2)  # fmt: skip
-    return svg(page, "What bounces, walks and pixels cost")
+    drawn = any(axes.lines for axes in page.axes)
+    return svg(page, "What bounces, walks and pixels cost") if drawn else None
 
 
 def note(found: SceneFindings) -> str:
@@ -178,8 +180,8 @@ def _marks(axes: Axes, curves: Sequence[Curve], name: str, seconds: float) -> No
         level = 100.0 * curve.error_at(seconds)
         axes.plot([seconds], [level], "s", color=COLOURS[curve.variant], ms=3.5)
         if curve.variant in (FITTED, WALK, EXACT, CYCLES):
-            axes.annotate(times_text(found), (seconds, level), (4, 3), textcoords="offset points",
-                          fontsize=7, color=COLOURS[curve.variant],
+            axes.annotate(f"{times_text(found)}×", (seconds, level), (4, 3), fontsize=7,
+                          textcoords="offset points", color=COLOURS[curve.variant],
                           path_effects=_HALO)  # fmt: skip
 
 

@@ -82,8 +82,8 @@ every number here, and every word that depends on one, is filled in from the dat
 [curves.csv](curves.csv) (error over time), [costs.csv](costs.csv) (time of a sample, bias),
 [results.json](results.json) (all of it).
 
-**Time** is that of the processor, of all threads together, which other work on the machine hardly
-changes; the files have the time that passed as well. The first render after each switch, which
+**Time** is that of the processor, of all threads together, which other work on the machine changes
+less than the time that passes; the files have both. The first render after each switch, which
 compiles the shaders, is left out and told by itself. A time of a sample is the median of
 {min(rounds)} rounds or more, in which the variants take turns; its range over the rounds stands
 beside it.{few} Denoiser and adaptive sampling are off, and nothing is clamped.
@@ -133,7 +133,10 @@ def _measured(aim: Target) -> str:
 def _verdict(aim: Target) -> str:
     if math.isnan(aim.value):
         return "not told"
-    return "reached" if aim.reached else "**not reached**"
+    verdict = "reached" if aim.reached else "**not reached**"
+    if aim.low <= aim.limit <= aim.high:
+        verdict += f", but not in all {aim.span}" if aim.reached else f", but in some {aim.span}"
+    return verdict
 
 
 def _losses(found: Sequence[SceneFindings]) -> str:

@@ -19,6 +19,7 @@ from .plan import Scene
 SILENCE = 1200.0
 # A child that fails is started once more: it goes on behind what is kept.
 ATTEMPTS = 2
+_SELDOM = 30.0  # seconds from one line of progress to the next in a log
 _SHOWN = 12  # lines of a failed child's messages
 
 
@@ -38,6 +39,7 @@ def run_scenes(
 ) -> list[str]:
     """Measure the scenes of the plan of this name; return what went wrong, one text a scene.
 
+    show    -- progress and the time left as a bar that moves, for a terminal, not now and then
     repeat  -- how many times the plan's rounds; the scenes have that many already
     silence -- seconds without a word after which a child is ended
     command -- for tests: makes the child's command line from what child_command takes
@@ -46,7 +48,8 @@ def run_scenes(
     failures = []
     total = sum(scene.whole_work for scene in scenes)
     # Scenes differ in what a path takes: the time that is left goes by the whole run.
-    with tqdm(total=total, unit=" paths", unit_scale=True, smoothing=0, disable=not show) as bar:
+    often = 0.1 if show else _SELDOM
+    with tqdm(total=total, unit=" paths", unit_scale=True, smoothing=0, mininterval=often) as bar:
         for scene in scenes:
             bar.set_postfix_str(scene.name)
             before = bar.n

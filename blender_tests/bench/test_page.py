@@ -167,3 +167,21 @@ def test_wrong_use_is_told(arguments, message, capsys):
         command.main(arguments)
     assert left.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_sweep_without_its_whole_range_is_not_drawn():
+    sweep = SWEEPS["bounces_showcase"]
+    short = timed(sweep, {"Walk, MaxBounces 2": 0.01, "Walk, MaxBounces 16": 0.01})
+    made = command.files(findings() | {sweep.name: short}, whole=True)
+    assert "sweeps.svg" not in made
+    assert "sweeps.svg" not in made["README.md"]
+
+
+def test_a_limit_within_the_range_is_told_with_the_verdict():
+    found = findings(fitted=1.08)
+    one = found["sun_white"]
+    fitted = one.curves["Fitted"]
+    uneven = replace(fitted, cpu=(*fitted.cpu[:-1], 2.0 * fitted.cpu[-1]))
+    found["sun_white"] = replace(one, curves=one.curves | {"Fitted": uneven})
+    text = command.files(found, whole=True)["README.md"]
+    assert "| 1.08 (1.08 to 2.16 over rounds) | reached, but not in all rounds |" in text

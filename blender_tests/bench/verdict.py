@@ -41,7 +41,9 @@ def wins(found: Sequence[SceneFindings]) -> list[str]:
             if not ahead or every[-1][1] <= 1.0:
                 continue
             start = _last_start(every)
-            when = "at all times" if start <= every[0][0] else f"from {start:.2g} s on"
+            when = (
+                "at all times that both have" if start <= every[0][0] else f"from {start:.2g} s on"
+            )
             lines.append(
                 f"{one.scene.title}: {quality} has the smaller error {when}; in the end its "
                 f"squared error is {times_text(every[-1][1])} times smaller."
@@ -58,9 +60,9 @@ def _lost(one: SceneFindings, quality: str) -> list[str]:
     title = one.scene.title
     if len(behind) == len(every):
         lines.append(
-            f"{title}: {quality} has the larger error at all times, {every[0][0]:.2g} to "
-            f"{every[-1][0]:.2g} s; its squared error is {times_text(1.0 / max(behind))} to "
-            f"{times_text(1.0 / min(behind))} times Cycles'."
+            f"{title}: {quality} has the larger error at all times that both have, "
+            f"{every[0][0]:.2g} to {every[-1][0]:.2g} s; its squared error is "
+            f"{times_text(1.0 / max(behind))} to {times_text(1.0 / min(behind))} times Cycles'."
         )
     elif behind:
         lines.append(
