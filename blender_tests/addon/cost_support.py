@@ -11,8 +11,10 @@ from addon.core.cost.results import Cost, Measured, Report, Setting
 from addon.core.cost.statistics import ErrorSplit
 from blender_tests.addon.support import small_scene
 
-# Deeper than any setting lies in a data-block.
-_DEPTH = 4
+# What a scene is made of, and how deep the sockets of a material's nodes lie in it.
+_KINDS = ("cameras", "collections", "images", "libraries", "lights", "materials", "node_groups",
+          "objects", "scenes", "worlds")  # fmt: skip
+_DEPTH = 3
 
 
 def measured(
@@ -80,26 +82,27 @@ def tiny_scene(path: Path | None = None, osl: bool = True) -> bpy.types.Scene:
 
 
 def dump() -> dict[str, object]:
-    """Return all plain values of all data-blocks, by where they are."""
-    found = {"filepath": bpy.data.filepath}
-    for collection in bpy.data.bl_rna.properties:
-        if collection.type == "COLLECTION":
-            for data in getattr(bpy.data, collection.identifier):
-                _dump(data, f"{collection.identifier}.{data.name_full}", found, _DEPTH)
+    """Return the plain values of all that a scene is made of, by where they are."""
+    found = {"filepath": bpy.data.filepath, "dirty": bpy.data.is_dirty}
+    for kind in _KINDS:
+        for data in getattr(bpy.data, kind):
+            _dump(data, f"{kind}.{data.name_full}", found, _DEPTH)
+    for kind in ("meshes", "texts"):
+        found[kind] = [(data.name_full, data.users) for data in getattr(bpy.data, kind)]
     return found
 
 
 def _dump(struct: bpy.types.bpy_struct, where: str, found: dict[str, object], depth: int) -> None:
     for prop in struct.bl_rna.properties:
         name = prop.identifier
-        # Windows and previews are no part of the file's content; deprecated ones warn.
+        # Pictures of materials are no part of the file's content; deprecated ones warn.
         if name in ("rna_type", "preview") or getattr(prop, "is_deprecated", False):
             continue
         value = getattr(struct, name, None)
         if prop.type == "POINTER":
             if isinstance(value, bpy.types.ID) and not value.is_embedded_data:
                 found[f"{where}.{name}"] = value.name_full
-            elif value is not None and depth:
+            elif value is not None and depth == _DEPTH:  # those deeper lead round in circles
                 _dump(value, f"{where}.{name}", found, depth - 1)
         elif prop.type == "COLLECTION":
             for number, item in enumerate(value if depth and value is not None else ()):

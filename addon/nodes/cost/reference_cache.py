@@ -66,7 +66,8 @@ def load_reference(path: str) -> "list[numpy.ndarray] | None":
     try:
         with np.load(path, allow_pickle=False) as kept:
             first, second = kept["first"], kept["second"]
-    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
+    # TypeError is for a file of one array.
+    except (OSError, KeyError, TypeError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
         return None
     if first.ndim != 3 or first.shape != second.shape:
         return None
