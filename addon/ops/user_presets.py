@@ -4,7 +4,7 @@
 They lie in Blender's own preset folders, `presets/microbounce/<kind>`, and are parsed, never run.
 """
 
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 
 import bpy
@@ -22,6 +22,22 @@ def user_presets(kind: str) -> list[Path]:
     folders = bpy.utils.preset_paths(f"microbounce/{kind.lower()}")
     found = [path for folder in folders for path in Path(folder).glob(f"*{SUFFIX}")]
     return sorted(found, key=lambda path: path.name.casefold())
+
+
+def shown_name(path: Path) -> str:
+    """Return the name in a preset's file, which may have letters that the file's name lacks.
+
+    It is the file's own where that cannot be read.
+    """
+    try:
+        return _read_name(path, path.stat().st_mtime_ns)
+    except (OSError, PresetError):
+        return bpy.path.display_name(path.stem, title_case=False)
+
+
+@lru_cache(maxsize=1024)  # menus are drawn often, and files change seldom
+def _read_name(path: Path, changed: int) -> str:
+    return load(path).name
 
 
 def node_values(node: bpy.types.Node) -> dict[str, object]:

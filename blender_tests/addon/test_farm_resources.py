@@ -82,6 +82,26 @@ def test_files_beside_the_materials(scene, tmp_path):
     assert "sky" not in the_finding(scene.scene)[2]
 
 
+def test_nodes_that_read_files(scene, tmp_path):
+    profile = tmp_path / "lamp.ies"
+    profile.write_text("IESNA")
+    lamp = next(light for light in bpy.data.lights if light.users)
+    if bpy.app.version < (5, 0, 0):
+        lamp.use_nodes = True
+    node = lamp.node_tree.nodes.new("ShaderNodeTexIES")
+    assert findings(scene.scene) == []
+    node.mode, node.filepath = "EXTERNAL", str(profile)
+    level, subject, message = the_finding(scene.scene)
+    assert (level, subject) == ("warning", f"Node '{node.name}' of '{lamp.name}'")
+    assert message == f"It reads the file {profile}, outside this one."
+    profile.unlink()
+    assert "which is missing" in the_finding(scene.scene)[2]
+    node.mode = "INTERNAL"
+    node = scene.material.node_tree.nodes.new("ShaderNodeScript")
+    node.mode, node.filepath = "EXTERNAL", str(tmp_path / "dust.osl")
+    assert "dust.osl, which is missing" in the_finding(scene.scene)[2]
+
+
 def drive(socket, expression):
     driver = socket.driver_add("default_value").driver
     driver.type = "SCRIPTED"

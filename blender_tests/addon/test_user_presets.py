@@ -173,6 +173,20 @@ def test_files_that_are_none_are_refused(registered, folder, tmp_path):
     assert outside.exists()
 
 
+@pytest.mark.parametrize("name", ["Löwe", "..", "a/b", "空"])
+def test_the_menu_shows_the_name_as_it_was_given(registered, folder, name):
+    from addon.ops.user_presets import shown_name, user_presets
+
+    shown_node(registered, "DIFFUSE")
+    registered.ops.microbounce.save_preset(name=name)
+    (path,) = user_presets("DIFFUSE")
+    assert shown_name(path) == name
+    path.write_text("damaged", encoding="utf-8")
+    assert shown_name(path) == registered.path.display_name(path.stem, title_case=False)
+    path.unlink()
+    assert shown_name(path) == registered.path.display_name(path.stem, title_case=False)
+
+
 def test_a_saved_preset_can_be_removed(registered, folder, kind):
     from addon.ops.user_presets import user_presets
 

@@ -10,6 +10,7 @@ from ...core.osl_state import osl_state
 from .resources import (
     image_findings,
     library_findings,
+    node_file_findings,
     other_file_findings,
     script_findings,
 )
@@ -33,7 +34,7 @@ def farm_findings(scene: bpy.types.Scene) -> list[Finding]:
             for finding in shader_findings(group)
         ]
     found += library_findings(used) + image_findings(used) + script_findings(used)
-    return found + (other_file_findings(used) if used else [])
+    return found + (node_file_findings(used) + other_file_findings(used) if used else [])
 
 
 def scene_findings(scene: bpy.types.Scene) -> list[Finding]:

@@ -49,6 +49,25 @@ def _first_file(data: bpy.types.ID) -> str:
     return path
 
 
+def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
+    """Return which scripts and IES profiles of used materials, lights and worlds are files."""
+    owners = {tree: use.material for use in uses for tree in use.trees}
+    for owner in (*bpy.data.lights, *bpy.data.worlds):
+        if owner.users and owner.node_tree is not None:
+            owners[owner.node_tree] = owner
+    found = []
+    for tree, owner in owners.items():
+        for node in tree.nodes:
+            if getattr(node, "mode", "") != "EXTERNAL" or not node.filepath:
+                continue
+            here = os.path.exists(bpy.path.abspath(node.filepath, library=tree.library))
+            where = "outside this one" if here else "which is missing"
+            subject = f"Node '{node.name}' of '{owner.name}'"
+            message = f"It reads the file {node.filepath}, {where}."
+            found.append(Finding("warning", subject, message, "Set the node to Internal."))
+    return found
+
+
 def library_findings(uses: Iterable[Use]) -> list[Finding]:
     """Return which libraries used materials need, and what is wrong with these."""
     needed: dict[bpy.types.Library, list[str]] = {}
