@@ -16,7 +16,8 @@ from ..core.cost.plan import (
     parse_region,
     parse_steps,
 )
-from ..nodes.cost.run import OUTPUT, CostError, Progress, measure
+from ..core.run import Progress
+from ..nodes.cost.run import OUTPUT, CostError, measure
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
 

@@ -99,7 +99,8 @@ class FollowsRun:
         type(self).progress = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
+        if context.workspace is not None:  # None where Blender quits or loads another file
+            context.workspace.status_text_set(None)
         _redraw(context)
 
     def _show(self, context: bpy.types.Context, progress: Progress) -> None:

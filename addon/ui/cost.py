@@ -6,11 +6,12 @@ from pathlib import Path
 
 import bpy
 
+from ..core.run import Progress
 from ..ops.cost import (
     CostOptions,
     MICROBOUNCE_OT_clear_cost_cache,
     MICROBOUNCE_OT_measure_cost,
-    State,
+    last_report,
 )
 
 # Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
@@ -34,12 +35,14 @@ class MICROBOUNCE_PT_cost(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the button or how far it is, and below it the last result."""
         layout = self.layout
-        if State.progress is not None:
-            _draw_progress(layout)
+        progress = MICROBOUNCE_OT_measure_cost.progress
+        if progress is not None:
+            _draw_progress(layout, progress)
         else:
             _draw_button(layout, context.window_manager.microbounce_cost)
-        if State.report is not None:
-            _draw_report(layout, context, State.report)
+        report = last_report()
+        if report is not None:
+            _draw_report(layout, context, report)
 
 
 class MICROBOUNCE_PT_cost_options(bpy.types.Panel):
@@ -69,8 +72,7 @@ def _draw_button(layout: bpy.types.UILayout, options: CostOptions) -> None:
         setattr(button, name, getattr(options, name))
 
 
-def _draw_progress(layout: bpy.types.UILayout) -> None:
-    progress = State.progress
+def _draw_progress(layout: bpy.types.UILayout, progress: Progress) -> None:
     left = "" if progress.left is None else f", {_duration(progress.left)} left"
     layout.progress(factor=progress.part, text=f"{100 * progress.part:.0f} %{left}")
     layout.label(text=progress.text)

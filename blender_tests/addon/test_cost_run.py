@@ -11,6 +11,7 @@ import bpy
 import pytest
 
 from addon.core.cost.plan import Options
+from addon.nodes import child_blender
 from addon.nodes.cost import reference_cache, run
 from addon.nodes.cost.run import IMAGE, CostError, CostRun, load_plot, measure
 from blender_tests.addon.cost_support import dump, tiny_scene
@@ -118,11 +119,11 @@ def test_cancelled_in_the_middle(folder):
         deadline = time.monotonic() + 30.0
         while started.progress().text == "Starting" and time.monotonic() < deadline:
             time.sleep(0.05)
-        assert started.running
+        assert started.advance()
         assert started.progress().text == "Reference, 1 of 2"
         begin = time.monotonic()
     assert time.monotonic() - begin < 3.0
-    assert not started.running
+    assert not started.advance()
     assert dump() == before
     assert list((folder / "temporary").iterdir()) == []
 
@@ -141,8 +142,9 @@ def test_an_exception_while_waiting_ends_the_other_blender(folder):
 def test_the_other_blender_ends_with_this_one(folder, monkeypatch):
     scene = tiny_scene()
     started = CostRun(scene, scene.view_layers[0], QUICK, str(folder / "report"))
-    started._process.stdin.close()
-    assert started._process.wait(10.0) == 1
+    process = started._child._process
+    process.stdin.close()
+    assert process.wait(10.0) == 1
     started.close()
 
 
@@ -207,8 +209,8 @@ def test_a_blender_that_crashes(folder, monkeypatch):
     def crashing(command, **options):
         return start([command[0], "-c", "import os; os._exit(7)"], **options)
 
-    monkeypatch.setattr(run.subprocess, "Popen", crashing)
-    with pytest.raises(CostError, match="It left with exit code 7"):
+    monkeypatch.setattr(child_blender.subprocess, "Popen", crashing)
+    with pytest.raises(CostError, match="The measurement failed: it left with exit code 7"):
         _measure(scene, output=str(folder / "report"))
 
 

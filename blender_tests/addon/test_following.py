@@ -117,6 +117,14 @@ def test_esc_ends_it(context, window):
     assert clean(context, follower)
 
 
+def test_another_file_ends_it(context, window):
+    follower = Follower(FakeRun(steps=3))
+    follower.follow(context)
+    context.workspace = None
+    follower.cancel(context)
+    assert (follower.progress, follower.run.closed, context.window_manager.timers) == (None, 1, 0)
+
+
 def test_a_failure_is_reported(context, window):
     follower = Follower(FakeRun(steps=1, error="No room"))
     follower.follow(context)
