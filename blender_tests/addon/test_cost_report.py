@@ -15,6 +15,7 @@ from addon.core.cost.advice import bias_text, duration, recommendation
 from addon.core.cost.page import MOST_BYTES, to_html
 from addon.core.cost.plot import COLORS, Dot, Label, Line, draw_plot, svg
 from addon.core.cost.png import rgb_png, shrunk, to_srgb
+from addon.core.cost.results import TOO_SHORT
 from addon.core.cost.tables import to_csv, to_json, to_text
 from blender_tests.addon.cost_support import measured, noisy_pictures, report
 
@@ -70,6 +71,13 @@ def test_the_sentence_where_none_comes_near():
         "No step comes within 2 % here; nearest is Single, bias 20 % ± 0.0025 %."
     )
     assert "nearest is Cycles_Osl" in recommendation([CYCLES], 0.02), "no step was measured"
+
+
+def test_no_times_are_told_that_are_none():
+    quick = measured("walk", seconds=16 * TOO_SHORT, bias=0.001)
+    assert recommendation([FITTED, quick], 0.02).startswith(
+        "The renders are too short to be timed: give more samples or a larger size. Nearest is Walk"
+    )
 
 
 def test_the_sentence_tells_what_the_noise_hides():

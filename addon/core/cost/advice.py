@@ -11,10 +11,17 @@ def recommendation(variants: Sequence[Measured], error: float) -> str:
     """Return which step reaches a relative error soonest, and how the others compare.
 
     Where none does, it names the one that comes nearest and its bias; where the steps were not
-    measured, it compares what was. What the noise leaves open is told as open.
+    measured, it compares what was. What the noise leaves open is told as open, and no times are
+    compared that are none.
     """
     steps = [v for v in variants if v.family == "step"] or list(variants)
     open_ones = [v for v in steps if v.split.doubtful(error)]
+    if not all(v.is_timed for v in steps):
+        best = min(steps, key=lambda v: v.split.bias)
+        return (
+            "The renders are too short to be timed: give more samples or a larger size. "
+            f"Nearest is {best.title}, {_bias(best)}."
+        )
     best = min(steps, key=lambda v: v.seconds_to(error))
     if math.isinf(best.seconds_to(error)):
         best = min(steps, key=lambda v: v.split.bias)

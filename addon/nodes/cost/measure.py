@@ -21,7 +21,7 @@ from ...core.cost.plan import (
     reference_variant,
 )
 from ...core.cost.png import to_srgb
-from ...core.cost.results import Cost, Measured, Report, Setting
+from ...core.cost.results import TOO_SHORT, Cost, Measured, Report, Setting
 from ...core.cost.statistics import reference_noise, split_error
 from ...core.cost.tables import to_csv, to_json, to_text
 from .plot_picture import plot_png
@@ -38,8 +38,6 @@ _FILES = {
     "plot": "cost.png",
     "json": "cost.json",
 }
-# No clock tells shorter times of a sample.
-_SHORTEST = 1e-7
 
 
 def measure_job(path: Path) -> None:
@@ -81,7 +79,7 @@ def measure_job(path: Path) -> None:
         )
         measured.append(result)
         pictures[variant.key] = shown
-    quick = [m.title for m in measured if min(m.cost.wall) <= _SHORTEST]
+    quick = [m.title for m in measured if not m.is_timed]
     if quick:
         notes.append(f"Too short to be timed: {', '.join(quick)}. Give more samples.")
     height, width = references[0].shape[:2]
@@ -143,9 +141,9 @@ def _evaluated(
     flipped = flip(shown_reference, shown)
     more = samples - 1
     cost = Cost(
-        wall=tuple(max(_SHORTEST, (full.wall - one.wall) / more) for one, full in renders),
+        wall=tuple(max(TOO_SHORT, (full.wall - one.wall) / more) for one, full in renders),
         processor=tuple(
-            max(_SHORTEST, (full.processor - one.processor) / more) for one, full in renders
+            max(TOO_SHORT, (full.processor - one.processor) / more) for one, full in renders
         ),
         start=tuple(max(0.0, one.wall - (full.wall - one.wall) / more) for one, full in renders),
         memory=max(full.memory for _, full in renders) or _process_peak(),
