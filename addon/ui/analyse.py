@@ -42,7 +42,9 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
     if not report.has_camera:
         layout.label(text="Shares are equal: there is no camera to find them", icon="INFO")
     if report.part < 1.0:
-        text = label("Shares are rough: time was over at {part} of the rays", part=percent(report.part))
+        text = label(
+            "Shares are rough: time was over at {part} of the rays", part=percent(report.part)
+        )
         layout.label(text=text, icon="INFO")
     changes = report.changes
     rows = (*changes, *(row for row in report.rows if row not in changes))
@@ -58,6 +60,8 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
             then=percent(report.error_then),
         )
     )
+    if not report.within_tolerance:
+        column.label(text="No choice of steps is within the tolerance", icon="INFO")
     column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
 
 
