@@ -19,17 +19,23 @@ Interval = tuple[float, float]
 
 
 def left_out(
-    kind: str, distribution: int, model: int, alphas: Interval, iors: Interval = (1.5, 1.5)
+    kind: str,
+    distribution: int,
+    model: int,
+    alphas: Interval,
+    iors: Interval = (1.5, 1.5),
+    of: str = "left_out",
 ) -> tuple[float, ...]:
-    """Return what is missing after bounce 1, 2, ... where facets absorb nothing, as image L2.
+    """Return what is missing after bounce 1, 2, ... where facets absorb nothing.
 
     alphas -- smallest and largest larger alpha, 0 to 1
     iors   -- of glass, and 1 over them alike
+    of     -- "left_out" for image L2, "lost" for energy
 
     It is the most over both intervals, from the nearest indices that were measured on both sides;
     between alphas it is linear, which is too much rather than too little.
     """
-    by_index = _left_out_rows(kind_named(kind).identifier, NAMES[distribution], model)
+    by_index = _by_index(of, kind_named(kind).identifier, NAMES[distribution], model)
     wanted = _around(sorted(by_index), iors) if kind == "DIELECTRIC" else by_index
     rows = [by_index[index] for index in wanted]
     count = max(len(numbers) for row in rows for numbers in row)
@@ -67,6 +73,11 @@ def cost(kind: str, step: str, alphas: Interval) -> float:
     return most(table["cost_alphas"], row["costs"], alphas)
 
 
+def background() -> float:
+    """Return the cost of a sample of a pixel that shows the world alone, as cost() does."""
+    return _tables()["background"]
+
+
 def most(nodes: Sequence[float], values: Sequence[float], interval: Interval) -> float:
     """Return the largest value over an interval, linear between rising nodes and flat outside."""
     low, high = interval
@@ -92,11 +103,11 @@ def _around(nodes: Sequence[float], iors: Interval) -> set[float]:
 
 
 @cache
-def _left_out_rows(kind: str, distribution: str, model: int) -> dict[float, list[list[float]]]:
+def _by_index(of: str, kind: str, distribution: str, model: int) -> dict[float, list[list[float]]]:
     """Return what is missing by alpha and bounce, by the index of glass (0 for other kinds)."""
     return {
         row["ior"]: row["after"]
-        for row in _tables()["left_out"]
+        for row in _tables()[of]
         if (row["kind"], row["distribution"], row["model"]) == (kind, distribution, model)
     }
 

@@ -31,9 +31,9 @@ class Passage(Enum):
 def passage(material: bpy.types.Material) -> Passage:
     """Return what a ray of sight does where it meets this material."""
     output = surface_output(material)
-    if output is not None and output.inputs["Volume"].is_linked:
-        if not output.inputs["Surface"].is_linked:
-            return Passage.THROUGH
+    linked = [name for name in ("Surface", "Volume") if output and output.inputs[name].is_linked]
+    if linked == ["Volume"]:
+        return Passage.THROUGH
     found = {_of_node(node, path) for path, node in reached_nodes(material)}
     # What is both shows more of what is behind it.
     ways = (Passage.THROUGH, Passage.MIRRORED)

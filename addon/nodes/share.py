@@ -37,12 +37,14 @@ class Shares:
     unmet      -- names of materials on what rays cannot meet: hair, points, volumes, and what the
                   viewport hides
     part       -- of the rays that were sent before the time was over, 0 to 1
+    empty      -- the part of the picture, 0 to 1, that shows nothing but the world
     """
 
     by_name: dict[str, float]
     has_camera: bool = True
     unmet: frozenset[str] = frozenset()
     part: float = 1.0
+    empty: float = 0.0
 
     def of(self, materials: list[bpy.types.Material], count: int) -> float:
         """Return the share of these materials together, of `count` surfaces that are analysed.
@@ -78,16 +80,19 @@ def picture_shares(
         return Shares({}, has_camera=False)
     hits: Counter[str] = Counter()
     sight = _Sight(scene, depsgraph)
-    sent, end = 0, time.monotonic() + seconds
+    sent, empty, end = 0, 0, time.monotonic() + seconds
     for number in _spread(len(rays)):
         if sent % WIDTH == 0:
             progress(sent / len(rays))
         if sent and time.monotonic() > end:
             break
-        hits.update({material.name_full for material in sight.along(*rays[number])})
+        met = {material.name_full for material in sight.along(*rays[number])}
+        hits.update(met)
+        empty += not met
         sent += 1
     by_name = {name: count / sent for name, count in hits.items()}
-    return Shares(by_name, unmet=_unmet(context, depsgraph), part=sent / len(rays))
+    unmet = _unmet(context, depsgraph)
+    return Shares(by_name, unmet=unmet, part=sent / len(rays), empty=empty / sent)
 
 
 def shown_materials(context: bpy.types.Context) -> list[bpy.types.Material]:

@@ -60,6 +60,8 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
             then=percent(report.error_then),
         )
     )
+    if not report.within_tolerance:
+        column.label(text="No choice of steps is within the tolerance", icon="INFO")
     column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
 
 
