@@ -75,7 +75,7 @@ class CostOptions:
         description="Radii of the lobe to compare, in Walk, with commas between; empty for none",
     )
     baselines: bpy.props.BoolProperty(
-        name="Cycles' Own Materials",
+        name="Cycles' Own",
         description="Compare Cycles' own materials of the same values too, with Open Shading "
         "Language on and off",
         default=True,
@@ -99,6 +99,7 @@ class CostOptions:
         description="Folder for the page, the tables and the plot; // is the file's own",
         default="//microbounce_cost",
         subtype="DIR_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
 
     def options(self) -> Options:
