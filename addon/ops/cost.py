@@ -77,7 +77,7 @@ class CostOptions:
         description="Radii of the lobe to compare, in Walk, with commas between; empty for none",
     )
     baselines: bpy.props.BoolProperty(
-        name="Cycles' Own Materials",
+        name="Cycles' Own",
         description="Compare Cycles' own materials of the same values too, with Open Shading "
         "Language on and off",
         default=True,

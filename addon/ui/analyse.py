@@ -11,7 +11,7 @@ from ..ops.analyse import (
     MICROBOUNCE_OT_apply_analysis,
     last_report,
 )
-from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_lines
 from .preferences import stored_preferences
 from .text import label
 
@@ -32,10 +32,10 @@ def draw_analysis(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
     row.operator(MICROBOUNCE_OT_apply_analysis.bl_idname)
     report = last_report(context)
     if report is not None:
-        _draw_report(layout, report)
+        _draw_report(layout, context, report)
 
 
-def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
+def _draw_report(layout: bpy.types.UILayout, context: bpy.types.Context, report: "Report") -> None:
     if not report.rows:
         layout.label(text="No object shows a Microbounce material", icon="INFO")
         return
@@ -49,7 +49,7 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
     changes = report.changes
     rows = (*changes, *(row for row in report.rows if row not in changes))
     for row in rows[:_MOST_ROWS]:
-        _draw_row(layout.box().column(align=True), row)
+        _draw_row(layout.box().column(align=True), context, row)
     if len(rows) > _MOST_ROWS:
         layout.label(text=label("{count} more", count=len(rows) - _MOST_ROWS))
     column = layout.column(align=True)
@@ -65,20 +65,20 @@ def _draw_report(layout: bpy.types.UILayout, report: "Report") -> None:
     column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
 
 
-def _draw_row(column: bpy.types.UILayout, row: "Row") -> None:
+def _draw_row(column: bpy.types.UILayout, context: bpy.types.Context, row: "Row") -> None:
     one = row.proposal
-    head = column.split(factor=0.5)
-    head.label(text=row.name, icon="MATERIAL")
-    head.label(text=label("{share} of the picture", share=percent(one.share)))
+    column.label(text=row.name, icon="MATERIAL")
+    column.label(text=label("{share} of the picture", share=percent(one.share)), icon="BLANK1")
     now, error = one.now, percent(one.error_now)
     if one.changes:
         then = percent(one.error_then)
         column.label(text=label("{now} to {then}", now=now, then=one.then), icon="FORWARD")
-        column.label(text=label("Off by {now}, then {then}", now=error, then=then))
+        text = label("Off by {now}, then {then}", now=error, then=then)
+        column.label(text=text, icon="BLANK1")
     else:
         column.label(text=label("{now}: off by {error}", now=now, error=error), icon="CHECKMARK")
     for text in (one.reason, *row.notes):
-        column.label(text=text[:1].upper() + text[1:], icon="BLANK1")
+        draw_lines(column, context, text[:1].upper() + text[1:], "BLANK1")
 
 
 class _AnalysisPanel:

@@ -20,7 +20,7 @@ class _Convert:
             (MICROBOUNCE_OT_to_microbounce, "To Microbounce"),
             (MICROBOUNCE_OT_to_native, "To Cycles"),
         ):
-            row = self.layout.row(align=True)
+            row = self.layout.split(factor=0.62, align=True)
             row.operator_menu_enum(operator.bl_idname, "scope", text=text)
             row.operator_menu_enum(operator.bl_idname, "scope", text="Dry Run").dry_run = True
         self.layout.operator(MICROBOUNCE_OT_update_materials.bl_idname, icon="FILE_REFRESH")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel Cost in the render properties: options, progress, and the last result."""
 
-import textwrap
 from pathlib import Path
 
 import bpy
@@ -13,9 +12,7 @@ from ..ops.cost import (
     MICROBOUNCE_OT_measure_cost,
     last_report,
 )
-
-# Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
-_CHARACTER_WIDTH = 8
+from .panels import draw_lines
 
 
 class MICROBOUNCE_PT_cost(bpy.types.Panel):
@@ -86,10 +83,7 @@ def _draw_report(
     box = layout.box()
     box.label(text=f"{setting['file']}, frame {setting['frame']}", icon="FILE_BLEND")
     column = box.column(align=True)
-    scale = context.preferences.system.ui_scale
-    width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
-    for line in textwrap.wrap(report["sentence"], width):
-        column.label(text=line)
+    draw_lines(column, context, report["sentence"], "BLANK1")
     grid = box.grid_flow(row_major=True, columns=4, even_columns=False, align=True)
     error = 100 * setting["error"]
     for heading in ("Variant", f"To {error:g} %", "Bias", "Noise"):

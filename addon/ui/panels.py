@@ -5,7 +5,6 @@ import textwrap
 
 import bpy
 
-from ..core import VERSION
 from ..core.kinds import KINDS
 from ..ops.exact import missed_lights
 from ..ops.material import MICROBOUNCE_OT_add_material
@@ -13,8 +12,8 @@ from ..ops.node import MICROBOUNCE_OT_add_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
 from .text import label, message
 
-# Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
-_CHARACTER_WIDTH = 8
+# Pixels at scale 1: of a character, rounded up, and of what a line has at its sides.
+_CHARACTER, _SIDES = 6.5, 72
 
 
 def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
@@ -47,9 +46,15 @@ def draw_text(
     layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "INFO"
 ) -> None:
     """Draw `text`, already translated, in a box, wrapped to the region's width."""
-    column = layout.box().column(align=True)
-    scale = context.preferences.system.ui_scale
-    width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
+    draw_lines(layout.box().column(align=True), context, text, icon)
+
+
+def draw_lines(
+    column: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str
+) -> None:
+    """Draw `text` as lines that fit the region, which labels do not do by themselves."""
+    scale = context.preferences.system.ui_scale or 1.0  # 0 without a window
+    width = max(20, int((context.region.width / scale - _SIDES) / _CHARACTER))
     for number, line in enumerate(textwrap.wrap(text, width)):
         column.label(text=line, icon="BLANK1" if number else icon)
 
@@ -71,7 +76,6 @@ class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
         """Draw what is to know before rendering, and buttons for new nodes."""
         draw_state(self.layout, context)
         draw_buttons(self.layout, MICROBOUNCE_OT_add_node.bl_idname)
-        self.layout.label(text=label("Version {number}", number=VERSION))
 
 
 class MICROBOUNCE_PT_material(bpy.types.Panel):

@@ -26,6 +26,7 @@ from ..ops.user_presets import (
     user_presets,
 )
 from . import previews
+from .panels import draw_lines, draw_text
 
 # What the pictures show, a choice of the window manager, so that no file stores it.
 SHOWN = "microbounce_presets_shown"
@@ -79,7 +80,20 @@ def draw_presets(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
     row.menu(MICROBOUNCE_MT_finishes.__name__)
     row.menu(MICROBOUNCE_MT_user_presets.__name__)
     if node is not None:
-        _draw_source(layout, node)
+        _draw_source(layout, context, node)
+    for problem in problems():
+        draw_text(layout, context, problem, "ERROR")
+    _draw_library(layout, context)
+    header, body = layout.panel("microbounce_preset_pictures", default_closed=True)
+    header.label(text="Pictures")
+    if body is not None:
+        _draw_pictures(body, context, node)
+
+
+def _draw_pictures(
+    layout: bpy.types.UILayout, context: bpy.types.Context, node: bpy.types.Node | None
+) -> None:
+    """Draw a picture and a button for each of the presets shown."""
     layout.prop(context.window_manager, SHOWN, text="Show")
     grid = layout.grid_flow(row_major=True, even_columns=True, even_rows=True)
     for item in presets(_shown_kind(context, node)):
@@ -87,9 +101,6 @@ def draw_presets(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
         cell.template_icon(icon_value=previews.icon(item.identifier), scale=_PICTURE_SCALE)
         button = cell.operator(MICROBOUNCE_OT_apply_preset.bl_idname, text=item.name)
         button.identifier = item.identifier
-    for problem in problems():
-        layout.label(text=problem, icon="ERROR")
-    _draw_library(layout, context)
 
 
 def _shown_kind(context: bpy.types.Context, node: bpy.types.Node | None) -> str | None:
@@ -100,14 +111,18 @@ def _shown_kind(context: bpy.types.Context, node: bpy.types.Node | None) -> str 
     return choice if choice in KINDS else None
 
 
-def _draw_source(layout: bpy.types.UILayout, node: bpy.types.Node) -> None:
+def _draw_source(
+    layout: bpy.types.UILayout, context: bpy.types.Context, node: bpy.types.Node
+) -> None:
     """Name the preset that was last applied to the node, and link to where its values are from."""
     try:
         applied = preset(node.get(PRESET_KEY, ""))
     except PresetError:  # none, one of the user's, or one of another version
         return
-    row = layout.row()
-    row.label(text=f"{applied.name}: {applied.source.title}")
+    column = layout.box().column(align=True)
+    row = column.row()
+    row.label(text=applied.name, icon="CHECKMARK")
+    draw_lines(column, context, applied.source.title, "BLANK1")
     if applied.source.url:
         row.operator("wm.url_open", text="", icon="URL").url = applied.source.url
 

@@ -2,6 +2,7 @@
 """The operators, panels and subcommands of the analysis."""
 
 import json
+from types import SimpleNamespace
 
 import bpy
 import pytest
@@ -158,7 +159,13 @@ def test_the_panel_shows_the_table(scene) -> None:
 
     texts: list[str] = []
     bpy.ops.microbounce.analyse()
-    draw_analysis(Layout(texts), bpy.context)
+    context = SimpleNamespace(
+        window_manager=bpy.context.window_manager,
+        scene=bpy.context.scene,
+        preferences=bpy.context.preferences,
+        region=SimpleNamespace(width=2000),
+    )
+    draw_analysis(Layout(texts), context)
     assert "Walk, 16 bounces to Single" in texts
     assert any("further bounces carry" in text for text in texts)
     assert any(text.startswith("Picture: ") for text in texts)

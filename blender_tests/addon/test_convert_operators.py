@@ -172,7 +172,7 @@ class Layout:
     def __init__(self):
         self.drawn = []
 
-    def row(self, align=False):
+    def split(self, factor=0.0, align=False):
         return self
 
     def operator(self, idname, icon="NONE"):

@@ -64,6 +64,7 @@ def run_in_window(script: Path, settings: dict[str, object], seconds: float) -> 
             [
                 *blender,
                 "--factory-startup",
+                "--enable-event-simulate",
                 *("--window-geometry", "0", "0", width, height),
                 *("--python-exit-code", "3", "--python", str(script)),
                 *("--", str(folder / "settings.json"), str(result)),

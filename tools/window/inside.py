@@ -15,20 +15,22 @@ from pathlib import Path
 
 import bpy
 
+sys.path.append(str(Path(__file__).resolve().parents[2]))
+from tools.window import editors
+from tools.window.editors import area, drawn, in_area, window
+from tools.window.session import NODES, PROPERTIES, VIEW
+from tools.window.watch import watch_panels
+
 MODULE = "bl_ext.user_default.microbounce"
-
-# Editors, by the names of their types.
-NODES, PROPERTIES = "ShaderNodeTree", "PROPERTIES"
-
-# Seconds in which Blender draws what has changed.
-_DRAW = 1.5
 
 _PIXELS = 32
 _EEVEE = "BLENDER_EEVEE" if bpy.app.version >= (5, 0, 0) else "BLENDER_EEVEE_NEXT"
+# A preset's name, which the search finds.
+_SEARCHED = "Copper"
 
 SETTINGS, RESULT = (Path(name) for name in sys.argv[sys.argv.index("--") + 1 :])
 settings = json.loads(SETTINGS.read_text(encoding="utf-8"))
-result: dict[str, object] = {"drawn": [], "ran": [], "errors": []}
+result: dict[str, object] = {"drawn": [], "ran": {}, "states": {}, "errors": [], "areas": {}}
 
 
 def steps() -> Iterator[float]:
@@ -38,49 +40,66 @@ def steps() -> Iterator[float]:
     _make_scene()
     # Before an editor shows the material: its preview would be rendered at the same time.
     result["centres"] = {engine: _rendered_centre(engine) for engine in ("EEVEE", "CYCLES")}
-    _open_and_watch_panels()
-    area("VIEW_3D").ui_type = NODES
-    area(NODES).spaces.active.show_region_ui = True
-    area(PROPERTIES).spaces.active.context = "MATERIAL"
-    yield from _drawn()  # a sidebar has tabs from then on
-    sidebar = next(region for region in area(NODES).regions if region.type == "UI")
-    sidebar.active_panel_category = "Microbounce"
-    _use_operators()
-    yield from _drawn()
-    with in_area(NODES):
-        bpy.ops.node.view_all()
-    yield from _drawn()
-    _take_picture()
-    area(PROPERTIES).spaces.active.context = "OBJECT"
-    area(NODES).ui_type = "VIEW_3D"
-    yield from _drawn()
+    yield from _as_installed()
+    names = watch_panels(MODULE, result["drawn"], result["errors"], opened=True)
+    result["panels"] = names
+    yield from editors.workspace("Modeling")
+    yield from _all_open()
+    yield from editors.workspace("Layout")
     with bpy.context.temp_override(window=window()):
         bpy.ops.preferences.addon_disable(module=MODULE)
+    yield from drawn()
     result["left"] = [name for name in dir(bpy.types) if "MICROBOUNCE" in name]
 
 
-def _drawn() -> Iterator[float]:
-    """Wait until Blender has drawn, and rendered its previews: changes in between may hang it."""
-    yield _DRAW
-    while bpy.app.is_job_running("RENDER_PREVIEW"):
-        yield _DRAW
+def _as_installed() -> Iterator[float]:
+    """Look at the panels as they are at first, and find a preset by typing its name."""
+    area(PROPERTIES).spaces.active.context = "MATERIAL"
+    yield from drawn()
+    _note("added")
+    _run("apply_preset", VIEW, identifier="conductor/gold")
+    yield from editors.show_nodes()
+    _note("preset")
+    editors.point(NODES)
+    yield from drawn()
+    with in_area(PROPERTIES):
+        bpy.ops.microbounce.search_preset("INVOKE_DEFAULT")
+    yield from drawn()
+    editors.write(_SEARCHED)
+    yield from drawn()
+    _note("search")
+    editors.press("RET")
+    yield from drawn()
+    _note("searched")
 
 
-def window() -> bpy.types.Window:
-    """Return Blender's one window; a timer's context has none."""
-    return bpy.context.window_manager.windows[0]
-
-
-def area(ui_type: str) -> bpy.types.Area:
-    """Return the first editor of a type that is on the screen."""
-    return next(area for area in window().screen.areas if area.ui_type == ui_type)
-
-
-def in_area(ui_type: str) -> object:
-    """Return a context manager in which operators see the main region of such an editor."""
-    found = area(ui_type)
-    region = next(region for region in found.regions if region.type == "WINDOW")
-    return bpy.context.temp_override(window=window(), area=found, region=region)
+def _all_open() -> Iterator[float]:
+    """Press the buttons with all panels open, and take back what they did."""
+    area(PROPERTIES).spaces.active.context = "MATERIAL"
+    yield from editors.show_nodes()
+    # A zip may be made without the library.
+    library = bpy.ops.microbounce.register_library.poll()
+    for name in ("analyse", "check_farm", "check_render", *["register_library"] * library):
+        _run(name, PROPERTIES)
+        yield from drawn()
+    _note("checked")
+    yield from editors.scroll_down(PROPERTIES, 40)
+    _note("scrolled")
+    if library:
+        _run("unregister_library", PROPERTIES)
+    editors.point(NODES)
+    for name in ("to_native", "to_microbounce"):
+        _run(name, PROPERTIES)
+        yield from drawn()
+        _note(name)
+    for count in (1, 2):
+        editors.press("Z", ctrl=True)
+        yield from drawn()
+        _note(f"undo{count}")
+    area(PROPERTIES).spaces.active.context = "RENDER"
+    yield from drawn()
+    yield from editors.scroll_down(PROPERTIES, 40)
+    _note("render")
 
 
 def _install() -> list[str]:
@@ -91,85 +110,48 @@ def _install() -> list[str]:
     return [name for name in bpy.context.preferences.addons.keys() if name == MODULE]  # noqa: SIM118
 
 
-def _open_and_watch_panels() -> None:
-    """Register the panels again, open, and noting when they are drawn and what goes wrong."""
-    classes = [cls for cls in _subclasses(bpy.types.Panel) if cls.__module__.startswith(MODULE)]
-    result["panels"] = sorted(cls.__name__ for cls in classes)
-    for cls in reversed(classes):
-        bpy.utils.unregister_class(cls)
-    for cls in classes:
-        cls.bl_options = set(getattr(cls, "bl_options", ())) - {"DEFAULT_CLOSED"}
-        cls.draw = _watched(cls.__name__, cls.draw)
-        bpy.utils.register_class(cls)
-
-
-def _subclasses(cls: type) -> list[type]:
-    """Return the classes that are registered, parents of panels before their children."""
-    found = [sub for sub in cls.__subclasses__() if getattr(sub, "is_registered", False)]
-    return sorted(found, key=lambda sub: hasattr(sub, "bl_parent_id"))
-
-
-def _watched(name: str, draw: object) -> object:
-    def watched(self: object, context: bpy.types.Context) -> None:
-        try:
-            draw(self, context)
-        except Exception:
-            result["errors"].append(f"{name}: {traceback.format_exc()}")
-            raise
-        if name not in result["drawn"]:
-            result["drawn"].append(name)
-
-    return watched
-
-
 def _make_scene() -> None:
     bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with in_area("VIEW_3D"):
+    with in_area(VIEW):
         bpy.ops.mesh.primitive_uv_sphere_add(radius=2.0, segments=64, ring_count=32)
         bpy.ops.object.shade_smooth()
-        _run("add_material", kind="CONDUCTOR")
-    material = bpy.context.view_layer.objects.active.active_material
-    result["node"] = sorted(node.name for node in material.node_tree.nodes)
-    result["active"] = material.name
+    _run("add_material", VIEW, kind="CONDUCTOR")
+    bpy.ops.wm.save_as_mainfile(filepath=str(Path(settings["folder"], "scene.blend")))
+    window().scene.render.engine = "CYCLES"
 
 
-def _use_operators() -> None:
-    """Press the buttons that this version of the extension has."""
-    scene = window().scene
-    scene.render.engine = "CYCLES"
-    with in_area(PROPERTIES):
-        _run("apply_preset", identifier="conductor/gold")
-        _run("analyse")
-        _run("check_render")
-        _run("check_farm")
+def _run(name: str, ui_type: str, **arguments: object) -> None:
+    """Press a button in an editor, with a step of undo as a press has."""
+    with in_area(ui_type):
+        done = getattr(bpy.ops.microbounce, name)("EXEC_DEFAULT", True, **arguments)
+    result["ran"][name] = sorted(done)
 
 
-def _run(name: str, **arguments: object) -> None:
-    if name in dir(bpy.ops.microbounce):
-        done = getattr(bpy.ops.microbounce, name)("EXEC_DEFAULT", **arguments)
-        result["ran"].append([name, sorted(done)])
-
-
-def _take_picture() -> None:
-    """Keep what the screen shows, and where on it the editors are."""
+def _note(name: str) -> None:
+    """Keep what the screen shows, where on it the editors are, and what the material is."""
     if settings["screen"]:
-        shutil.copyfile(settings["screen"], Path(settings["folder"], "screen.xwd"))
-    result["areas"] = {
-        name: [found.x, found.y, found.width, found.height]
-        for name in (NODES, PROPERTIES)
-        for found in [area(name)]
+        shutil.copyfile(settings["screen"], Path(settings["folder"], f"{name}.xwd"))
+    shown = {found.ui_type: found for found in window().screen.areas}
+    result["areas"][name] = {
+        ui_type: [found.x, found.y, found.width, found.height] for ui_type, found in shown.items()
     }
+    material = window().view_layer.objects.active.active_material
+    kinds = {node.name: node.bl_idname for node in material.node_tree.nodes}
+    presets = [node.get("microbounce_preset") for node in material.node_tree.nodes]
+    result["states"][name] = {"nodes": kinds, "presets": [one for one in presets if one]}
 
 
 def _rendered_centre(engine: str) -> list[float]:
     """Render the scene small with `engine`; return the mean colour of the picture's middle."""
     scene = window().scene
+    before = scene.render.engine
     scene.render.engine = engine if engine == "CYCLES" else _EEVEE
     scene.render.resolution_x = scene.render.resolution_y = _PIXELS
     scene.cycles.samples = scene.eevee.taa_render_samples = 8
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.filepath = str(Path(settings["folder"], f"{engine}.exr"))
     bpy.ops.render.render(write_still=True)
+    scene.render.engine = before
     return _centre(scene.render.filepath)
 
 
@@ -205,4 +187,4 @@ faulthandler.dump_traceback_later(settings["seconds"])
 # Before Blender draws for the first time.
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.view.render_display_type = "NONE"
-bpy.app.timers.register(_next, first_interval=_DRAW)
+bpy.app.timers.register(_next, first_interval=editors.DRAW, persistent=True)

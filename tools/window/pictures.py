@@ -9,11 +9,12 @@ import numpy as np
 
 
 def save_part(screen: Path, part: list[int], target: Path, quality: int = 85) -> None:
-    """Save a part of a screen as a JPEG.
+    """Save a part of a screen, as a PNG or, for another suffix of `target`, as a JPEG.
 
-    screen -- what Xvfb keeps in its folder: an X window dump, whose pixels are blue, green, red
-              and a byte without meaning
-    part   -- left, bottom, width and height in pixels, from the screen's bottom left
+    screen  -- what Xvfb keeps in its folder: an X window dump, whose pixels are blue, green, red
+               and a byte without meaning
+    part    -- left, bottom, width and height in pixels, from the screen's bottom left
+    quality -- of a JPEG, 0 to 100
     """
     left, bottom, width, height = part
     rows = _pixels(screen)[::-1][bottom : bottom + height, left : left + width]
@@ -21,7 +22,7 @@ def save_part(screen: Path, part: list[int], target: Path, quality: int = 85) ->
     colors = np.ones((height, width, 4), np.float32)
     colors[..., :3] = rows[..., 2::-1] / 255.0
     image.pixels.foreach_set(colors.ravel())
-    image.file_format = "JPEG"
+    image.file_format = "PNG" if target.suffix == ".png" else "JPEG"
     image.save(filepath=str(target), quality=quality)
     bpy.data.images.remove(image)
 

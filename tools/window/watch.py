@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Notes which of an extension's panels are drawn, and what goes wrong there; runs in Blender."""
+
+import traceback
+
+import bpy
+
+
+def watch_panels(module: str, drawn: list[str], errors: list[str], opened: bool) -> list[str]:
+    """Register the panels of `module` again, noting in `drawn` and `errors` what they do.
+
+    opened -- whether those that are closed at first are open, in screens not yet shown
+    Returns the panels' names.
+    """
+    classes = [cls for cls in _subclasses(bpy.types.Panel) if cls.__module__.startswith(module)]
+    for cls in reversed(classes):
+        bpy.utils.unregister_class(cls)
+    for cls in classes:
+        if opened:
+            cls.bl_options = set(getattr(cls, "bl_options", ())) - {"DEFAULT_CLOSED"}
+        cls.draw = _watched(cls.__name__, cls.draw, drawn, errors)
+        bpy.utils.register_class(cls)
+    return sorted(cls.__name__ for cls in classes)
+
+
+def _subclasses(cls: type) -> list[type]:
+    """Return the classes that are registered, parents of panels before their children."""
+    found = [sub for sub in cls.__subclasses__() if getattr(sub, "is_registered", False)]
+    return sorted(found, key=lambda sub: hasattr(sub, "bl_parent_id"))
+
+
+def _watched(name: str, draw: object, drawn: list[str], errors: list[str]) -> object:
+    def watched(self: object, context: bpy.types.Context) -> None:
+        try:
+            draw(self, context)
+        except Exception:
+            errors.append(f"{name}: {traceback.format_exc()}")
+            raise
+        if name not in drawn:
+            drawn.append(name)
+
+    return watched
