@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import bpy
 
-from . import command
+from . import command, preferences
 from .ops import (
     analyse,
     check,
@@ -28,7 +28,7 @@ from .ui import check as check_panels
 from .ui import convert as convert_panel
 from .ui import cost as cost_panels
 from .ui import farm as farm_panels
-from .ui import handlers, menus, panels, preferences
+from .ui import handlers, menus, panels
 from .ui import presets as preset_panels
 
 _MODULES = (

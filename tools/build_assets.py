@@ -107,7 +107,7 @@ def _set_preview(material: object, preset: Preset) -> None:
     import bpy
     import numpy as np
 
-    from addon.ui.previews import picture_path
+    from addon.preset_icons import picture_path
 
     path = picture_path(preset.identifier)
     if not path.is_file():

@@ -15,9 +15,9 @@ from pathlib import Path
 import bpy
 from tqdm import tqdm
 
+from addon import preset_icons
 from addon.core.presets import Preset, presets, problems
 from addon.nodes.apply import NEW_VALUES, preset_material
-from addon.ui import previews
 from scenes.render import messages_to
 
 from . import preview_scene
@@ -29,7 +29,7 @@ _QUALITY = 82  # of WebP, in percent
 
 def manifest_path() -> Path:
     """Return the file that holds, by preset, the fingerprint of its picture."""
-    return previews.FOLDER / "manifest.json"
+    return preset_icons.FOLDER / "manifest.json"
 
 
 def fingerprint(preset: Preset) -> str:
@@ -54,14 +54,14 @@ def outdated() -> list[Preset]:
         preset
         for preset in presets()
         if known.get(preset.identifier) != fingerprint(preset)
-        or not previews.picture_path(preset.identifier).is_file()
+        or not preset_icons.picture_path(preset.identifier).is_file()
     ]
 
 
 def leftovers() -> list[Path]:
     """Return the pictures that belong to no preset."""
-    wanted = {previews.picture_path(preset.identifier) for preset in presets()}
-    return sorted(set(previews.FOLDER.glob("*.webp")) - wanted)
+    wanted = {preset_icons.picture_path(preset.identifier) for preset in presets()}
+    return sorted(set(preset_icons.FOLDER.glob("*.webp")) - wanted)
 
 
 def render(chosen: list[Preset], log: Path) -> None:
@@ -74,13 +74,13 @@ def render(chosen: list[Preset], log: Path) -> None:
     scene, ball = preview_scene.build()
     settings = scene.render.image_settings
     settings.file_format, settings.color_mode, settings.quality = "WEBP", "RGB", _QUALITY
-    previews.FOLDER.mkdir(parents=True, exist_ok=True)
+    preset_icons.FOLDER.mkdir(parents=True, exist_ok=True)
     log.parent.mkdir(parents=True, exist_ok=True)
     for preset in (steps := tqdm(chosen, desc="Rendering", unit="picture")):
         steps.set_postfix_str(preset.name)
         material = preset_material(preset)
         ball.data.materials[0] = material
-        path = previews.picture_path(preset.identifier)
+        path = preset_icons.picture_path(preset.identifier)
         path.unlink(missing_ok=True)
         scene.render.filepath = str(path)
         with messages_to(log):
@@ -104,7 +104,7 @@ def complaints() -> list[str]:
     """Return what is wrong with the pictures, with the remedy; empty where all is well."""
     found = [f"{item.identifier}: no picture of today's values" for item in outdated()]
     found += [f"{path.name}: belongs to no preset, delete it" for path in leftovers()]
-    size = sum(path.stat().st_size for path in previews.FOLDER.glob("*.webp"))
+    size = sum(path.stat().st_size for path in preset_icons.FOLDER.glob("*.webp"))
     if size > LIMIT:
         found.append(f"The pictures take {size} bytes and may take {LIMIT}: lower their quality")
     return [*found, *problems()]

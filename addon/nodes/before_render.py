@@ -13,7 +13,7 @@ from .find import our_nodes, surface_tree
 from .group import GROUP_ERRORS, script_node
 from .rendered import rendered_materials
 from .scene_status import scene_status
-from .update import _is_newer, _is_ours_of_another_version
+from .update import is_newer, is_of_another_version
 
 _MISSING = "The library file of its node group is missing: it renders black."
 _FIND = "Use File > External Data > Find Missing Files, or put the library back."
@@ -115,7 +115,7 @@ def _group_findings(
     elif script.script is None and script.mode == "INTERNAL":
         findings.append(Finding("note", subject, _NO_TEXT, mend))
     try:
-        other, newer = _is_ours_of_another_version(group), _is_newer(group)
+        other, newer = is_of_another_version(group), is_newer(group)
     except GROUP_ERRORS as error:  # a damaged installation; the file itself still renders
         return [*findings, Finding("note", subject, f"{error}.")]
     if other:

@@ -81,15 +81,17 @@ def _todays_stamp(kind: str) -> str:
 
 
 def _is_old(group: bpy.types.NodeTree) -> bool:
-    return _is_ours_of_another_version(group) and not _is_newer(group)
+    return is_of_another_version(group) and not is_newer(group)
 
 
-def _is_ours_of_another_version(group: bpy.types.NodeTree) -> bool:
+def is_of_another_version(group: bpy.types.NodeTree) -> bool:
+    """Return whether a group is one of ours, and not today's."""
     kind = group.get(KIND_KEY)
     return kind in KINDS and group.get(STAMP_KEY) != _todays_stamp(kind)
 
 
-def _is_newer(group: bpy.types.NodeTree) -> bool:
+def is_newer(group: bpy.types.NodeTree) -> bool:
+    """Return whether a newer version of the extension made a group."""
     return _numbers(str(group.get(VERSION_KEY, ""))) > _numbers(VERSION)
 
 
@@ -116,9 +118,9 @@ def _group_nodes(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
 def _obstacle(owner: bpy.types.ID, node: bpy.types.Node) -> str:
     """Return why an old node cannot be changed, with the remedy; "" where it can or is not old."""
     group = node.node_tree
-    if not _is_ours_of_another_version(group):
+    if not is_of_another_version(group):
         return ""
-    if _is_newer(group):
+    if is_newer(group):
         return f"its group is of version {group[VERSION_KEY]}: update the extension"
     if owner.library or not owner.is_editable:
         return "it is linked from a library: update it in its own file"

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
-from ..ui.preferences import preferences
-from ..ui.text import message
+from ..preferences import preferences
+from ..text import message
 from .redraw import redraw_panels
 
 # What does the work is imported when it is called: a start of Blender pays nothing for it.

@@ -4,7 +4,7 @@
 import bpy
 
 from ..nodes.before_render import check_scene, forget, remember
-from ..ui.text import message
+from ..text import message
 from .redraw import redraw_panels
 
 

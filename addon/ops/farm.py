@@ -8,7 +8,7 @@ import bpy
 
 from ..core.finding import Finding, by_level, counts, worst
 from ..core.run import RunError
-from ..ui.text import message
+from ..text import message
 from .following import FollowsRun
 from .redraw import redraw_panels
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..core.run import Progress, Run, RunError, wait_for
-from ..ui.text import label
+from ..text import label
 from .redraw import redraw_panels
 
 _INTERVAL = 0.25  # seconds between looks at the run

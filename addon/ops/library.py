@@ -5,7 +5,7 @@ from pathlib import Path
 
 import bpy
 
-from ..ui.preferences import preferences
+from ..preferences import preferences
 from .polled import Polled
 
 NAME = "Microbounce"

@@ -5,7 +5,7 @@ import bpy
 
 from ..core.kinds import KINDS
 from ..nodes.group import GROUP_ERRORS, add_group_node, material_group
-from ..ui.preferences import preferences
+from ..preferences import preferences
 from .kinds import KIND_ITEMS
 from .osl import osl_status
 from .polled import Polled

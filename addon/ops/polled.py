@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..ui.text import message
+from ..text import message
 
 
 class Polled:

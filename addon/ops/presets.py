@@ -17,7 +17,7 @@ from ..nodes.apply import (
     preset_material,
 )
 from ..nodes.group import GROUP_ERRORS
-from ..ui.previews import icon
+from ..preset_icons import icon
 from . import material as object_material
 from .osl import osl_status
 from .polled import Polled

@@ -11,9 +11,9 @@ from ..ops.analyse import (
     MICROBOUNCE_OT_apply_analysis,
     last_report,
 )
+from ..preferences import stored_preferences
+from ..text import label
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_lines
-from .preferences import stored_preferences
-from .text import label
 
 if TYPE_CHECKING:
     from ..nodes.analyse import Report, Row

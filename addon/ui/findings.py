@@ -6,8 +6,8 @@ from collections.abc import Iterable
 import bpy
 
 from ..core.finding import Finding
+from ..text import message
 from .panels import draw_text
-from .text import message
 
 ICONS = {"error": "CANCEL", "warning": "ERROR", "note": "INFO"}
 

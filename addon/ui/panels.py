@@ -10,7 +10,7 @@ from ..ops.exact import missed_lights
 from ..ops.material import MICROBOUNCE_OT_add_material
 from ..ops.node import MICROBOUNCE_OT_add_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
-from .text import label, message
+from ..text import label, message
 
 # Pixels at scale 1: of a character, rounded up, and of what a line has at its sides.
 _CHARACTER, _SIDES = 6.5, 72

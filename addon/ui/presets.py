@@ -3,6 +3,7 @@
 
 import bpy
 
+from .. import preset_icons
 from ..core.kinds import KINDS
 from ..core.presets import PresetError, finishes, preset, presets, problems
 from ..nodes.apply import PRESET_KEY, material_node, node_kind
@@ -25,7 +26,6 @@ from ..ops.user_presets import (
     shown_name,
     user_presets,
 )
-from . import previews
 from .panels import draw_lines, draw_text
 
 # Choices of the window manager, so that no file stores them: which pictures there are, and whether
@@ -99,7 +99,7 @@ def _draw_pictures(
     grid = layout.grid_flow(row_major=True, even_columns=True, even_rows=True)
     for item in presets(_shown_kind(context, node)):
         cell = grid.column(align=True)
-        cell.template_icon(icon_value=previews.icon(item.identifier), scale=_PICTURE_SCALE)
+        cell.template_icon(icon_value=preset_icons.icon(item.identifier), scale=_PICTURE_SCALE)
         button = cell.operator(MICROBOUNCE_OT_apply_preset.bl_idname, text=item.name)
         button.identifier = item.identifier
 
@@ -196,4 +196,4 @@ def unregister() -> None:
     """Take them out, and the pictures out of memory."""
     for name in (SHOWN, OPEN):
         delattr(bpy.types.WindowManager, name)
-    previews.release()
+    preset_icons.release()

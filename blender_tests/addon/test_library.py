@@ -56,7 +56,7 @@ def test_every_preset_is_an_asset_with_its_values(loaded):
 
 def test_previews_are_the_pictures_the_right_way_up(loaded):
     from addon.nodes.apply import PRESET_KEY, material_node
-    from addon.ui.previews import picture_path
+    from addon.preset_icons import picture_path
 
     bpy, materials = loaded
     for material in materials:
@@ -112,9 +112,9 @@ def test_a_library_of_other_sources_is_not_current(library, monkeypatch, tmp_pat
 
 
 def test_a_missing_picture_is_named(empty_file, monkeypatch, tmp_path):
-    from addon.ui import previews
+    from addon import preset_icons
 
-    monkeypatch.setattr(previews, "FOLDER", tmp_path)
+    monkeypatch.setattr(preset_icons, "FOLDER", tmp_path)
     with pytest.raises(RuntimeError, match=r"\.webp is missing: render it with `make previews`"):
         build_assets.build(tmp_path / "assets")
     assert not build_assets.is_current(tmp_path / "assets")

@@ -10,7 +10,7 @@ pytestmark = pytest.mark.usefixtures("compiled_once")
 
 
 def current(bpy):
-    from addon.ui.preferences import preferences
+    from addon.preferences import preferences
 
     return preferences(bpy.context)
 
@@ -21,14 +21,14 @@ def quality_of(tree):
 
 
 def test_without_an_entry_the_defaults_hold(registered):
-    from addon.ui.preferences import Preferences
+    from addon.preferences import Preferences
 
     assert "addon" not in registered.context.preferences.addons
     assert current(registered) == Preferences("Fitted", 0.01, "")
 
 
 def test_the_stored_ones_start_from_the_same_defaults(registered, stored):
-    from addon.ui.preferences import Preferences
+    from addon.preferences import Preferences
 
     assert current(registered).tolerance == pytest.approx(Preferences().tolerance)
     assert current(registered).quality == Preferences().quality
@@ -37,7 +37,7 @@ def test_the_stored_ones_start_from_the_same_defaults(registered, stored):
 
 def test_an_entry_without_values_gives_the_defaults(empty_file):
     """So it is while the extension is being enabled, before its classes are registered."""
-    from addon.ui.preferences import Preferences
+    from addon.preferences import Preferences
 
     addons = empty_file.context.preferences.addons
     addons.new().module = "addon"
@@ -47,7 +47,7 @@ def test_an_entry_without_values_gives_the_defaults(empty_file):
 
 
 def test_default_quality_is_that_of_the_parameter(kind):
-    from addon.ui.preferences import Preferences
+    from addon.preferences import Preferences
 
     quality = KINDS[kind].by_identifier["Quality"]
     assert quality.checked(Preferences().quality) == quality.default
@@ -97,7 +97,7 @@ def test_new_nodes_take_the_quality(registered, stored, kind):
 
 
 def test_they_can_be_drawn(registered, stored):
-    from addon.ui.preferences import MicrobouncePreferences
+    from addon.preferences import MicrobouncePreferences
 
     class Layout:
         def __init__(self):

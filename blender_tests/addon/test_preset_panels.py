@@ -218,24 +218,24 @@ def test_the_shader_editor_shows_them_for_materials_of_objects(registered):
 
 @pytest.mark.parametrize("identifier", ["conductor/unheard-of", ""])
 def test_a_missing_picture_is_no_icon(registered, identifier):
-    from addon.ui import previews
+    from addon import preset_icons
 
-    assert previews.icon(identifier) == 0
+    assert preset_icons.icon(identifier) == 0
 
 
 def test_pictures_are_loaded_when_drawn_and_released(empty_file):
     import addon
-    from addon.ui import previews
+    from addon import preset_icons
 
     addon.register()
     try:
-        assert previews._icons is None, "nothing is loaded at start-up"
+        assert preset_icons._icons is None, "nothing is loaded at start-up"
         draw(empty_file, PANEL)
-        assert set(previews._icons) == {preset.identifier for preset in presets.presets()}
-        assert all(min(icon.image_size) > 0 for icon in previews._icons.values())
+        assert set(preset_icons._icons) == {preset.identifier for preset in presets.presets()}
+        assert all(min(icon.image_size) > 0 for icon in preset_icons._icons.values())
     finally:
         addon.unregister()
-    assert previews._icons is None
+    assert preset_icons._icons is None
 
 
 def test_every_kind_can_be_chosen(registered):

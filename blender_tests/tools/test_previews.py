@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 import pytest
 
+from addon import preset_icons
 from addon.core import presets
-from addon.ui import previews
 from tools import preview_scene, render_previews
 
 
@@ -27,7 +27,7 @@ def picture(path):
 def test_the_committed_pictures_are_complete_and_small(capsys):
     assert render_previews.main(["--check"]) == 0, capsys.readouterr().err
     for preset in presets.presets():
-        pixels = picture(previews.picture_path(preset.identifier))
+        pixels = picture(preset_icons.picture_path(preset.identifier))
         assert pixels.shape == (preview_scene.SIZE, preview_scene.SIZE, 3)
         assert 0.15 < pixels.mean() < 0.85, f"{preset.identifier} is too dark or too bright"
         assert (pixels.min(axis=-1) > 0.995).mean() < 0.05, f"{preset.identifier} is burnt"
@@ -38,7 +38,7 @@ def test_metals_differ_in_their_pictures_as_in_their_values():
     middle = slice(size // 3, 2 * size // 3)
     colors = {}
     for name in ("gold", "silver", "copper"):
-        path = previews.picture_path(f"conductor/{name}")
+        path = preset_icons.picture_path(f"conductor/{name}")
         colors[name] = picture(path)[middle, middle].mean(axis=(0, 1))
     for name in ("gold", "copper"):
         assert colors[name][0] > colors[name][2] + 0.1, f"{name} is warm"
@@ -54,8 +54,8 @@ def few(tmp_path, monkeypatch):
     folder.mkdir()
     known = render_previews.known_fingerprints()
     for item in chosen:
-        shutil.copy2(previews.picture_path(item.identifier), folder)
-    monkeypatch.setattr(previews, "FOLDER", folder)
+        shutil.copy2(preset_icons.picture_path(item.identifier), folder)
+    monkeypatch.setattr(preset_icons, "FOLDER", folder)
     monkeypatch.setattr(render_previews, "presets", lambda: tuple(chosen))
     monkeypatch.setattr(render_previews, "ROOT", tmp_path)
     kept = {item.identifier: known[item.identifier] for item in chosen}

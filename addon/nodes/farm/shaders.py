@@ -12,7 +12,7 @@ from ...core.oso import same_program
 from ...core.shader_source import ShaderSourceError, inlined_source
 from ..group import KIND_KEY, script_node
 from ..script import OslUnavailableError, ShaderCompileError, compile_source
-from ..update import _is_newer, _is_ours_of_another_version
+from ..update import is_newer, is_of_another_version
 
 # A file has few sources; a check of several files in a row meets the same ones again.
 _compiled = lru_cache(maxsize=8)(compile_source)
@@ -43,9 +43,9 @@ def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
     except ShaderSourceError as error:
         message = "The extension's own shader cannot be read, so it was not compared."
         return [Finding("warning", subject, message, f"{error}.")]
-    other = _is_ours_of_another_version(group)
+    other = is_of_another_version(group)
     found = _script_findings(group, subject, "" if other else source)
-    change = _UPGRADE if _is_newer(group) else _UPDATE
+    change = _UPGRADE if is_newer(group) else _UPDATE
     elsewhere = _IN_LIBRARY if group.library else change if other else ""
     if elsewhere:
         found = [f if f.level == "note" else replace(f, remedy=elsewhere) for f in found]

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..core.kinds import KINDS
-from ..core.picture_error import DEFAULT_TOLERANCE
+from .core.kinds import KINDS
+from .core.picture_error import DEFAULT_TOLERANCE
 
 # The extension's package, under which Blender keeps its preferences; in tests it is "addon".
-_PACKAGE = __package__.rpartition(".")[0]
+_PACKAGE = __package__
 
 # One for all kinds of material.
 _QUALITY = KINDS["CONDUCTOR"].by_identifier["Quality"]

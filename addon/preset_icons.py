@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parent.parent / "previews"
+FOLDER = Path(__file__).resolve().parent / "previews"
 
 # Blender's collection of the icons, made with the first of them.
 _icons = None
