@@ -7,6 +7,8 @@ SHELL := bash
 # `make test PYTEST_ARGS="-k furnace -x"` hands options to pytest, TESTS= chooses a folder or file.
 TESTS ?= blender_tests
 PYTEST_ARGS ?=
+# `make bench BENCH_ARGS="--trial --output build/trial"`; `--help` lists them.
+BENCH_ARGS ?=
 
 any = python="$$(tools/environment.sh any)" && "$$python"
 on_5.2 = python="$$(tools/environment.sh 5.2)" && "$$python"
@@ -73,8 +75,8 @@ references: ## Render the oracle's reference pictures anew (about 35 minutes)
 figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
 	@$(any) -m blender_tests.figures
 
-bench: ## Measure what accuracy costs in time (docs/benchmarks; about 40 minutes on two idle cores)
-	@$(any) -m blender_tests.bench
+bench: ## Measure what accuracy costs in time (docs/benchmarks; about 35 minutes on two idle cores)
+	@$(any) -m blender_tests.bench $(BENCH_ARGS)
 
 bench-check: ## Fail where a quick benchmark's ratios of times grew (about two minutes)
 	@$(any) -m blender_tests.bench --check

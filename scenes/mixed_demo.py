@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows what the analysis saves: renders a scene of mixed materials all in Walk, all in Fitted and
-as analysed, and prints time and measured error beside what was predicted.
+as analysed; prints time and measured error beside what was predicted, and writes a picture.
 
 The error is that of the converged pictures against Exact, which has no bias: of two independent
-renders of each, so that their noise cancels in the mean.
+renders of each, so that their noise cancels in the mean. It is taken of blocks of a few pixels,
+which have less noise; a sphere is several blocks wide.
 """
 
 import argparse
@@ -16,18 +17,23 @@ from tempfile import TemporaryDirectory
 import bpy
 import numpy as np
 
-from addon.core.analysis import Choice, predicted_error
-from addon.core.picture_error import DEFAULT_TOLERANCE, picture_error
+from addon.core.analysis import Choice, Surface, predicted_cost, predicted_error
+from addon.core.picture_error import DEFAULT_TOLERANCE, percent, picture_error
+from addon.core.proposal import time_of
 from addon.nodes.analyse import Report, analyse
 from addon.nodes.inspect import apply_choice, found_nodes, read_surface
 from addon.nodes.share import shown_materials
 from tools.timing import SampleTimes, time_samples
 
-from . import mixed, render
+from . import comparison, mixed, render
 
+ROOT = Path(__file__).resolve().parent.parent
+PICTURE = ROOT / "build" / "analysis" / "comparison.png"
 ANALYSED = "Analysed"
 VARIANTS = ("Walk", "Fitted", ANALYSED)
 _ALL_BOUNCES = 16
+FOOTER = "A scene of mixed materials; errors are those of the converged pictures, as image L2"
+_BLOCK = 5  # pixels on a side
 # A render's camera is moved aside by this from one seed to the next, less than a thousandth of a
 # pixel: Cycles places some samples of two seeds alike.
 _NUDGE = 1e-5
@@ -55,11 +61,23 @@ class Scene:
     def predicted(self, variant: str) -> float:
         """Return the error that the analysis predicts for a variant."""
         return picture_error(
-            [
-                (self._proposals[one.key].share, predicted_error(read_surface(one)[0], choice))
-                for one, choice in zip(self.found, self.choices(variant), strict=True)
-            ]
+            (share, predicted_error(surface, choice))
+            for surface, share, choice in self._predictions(variant)
         )
+
+    def predicted_time(self, variant: str) -> float:
+        """Return the time of a sample that it predicts, in the units of predicted_cost()."""
+        costs = [
+            (share, predicted_cost(surface, choice))
+            for surface, share, choice in self._predictions(variant)
+        ]
+        return time_of(costs, self.report.empty)
+
+    def _predictions(self, variant: str) -> list[tuple[Surface, float, Choice]]:
+        return [
+            (read_surface(one)[0], self._proposals[one.key].share, choice)
+            for one, choice in zip(self.found, self.choices(variant), strict=True)
+        ]
 
     def pictures(self, variant: str, samples: int, first_seed: int) -> np.ndarray:
         """Return two independent renders of a variant, ``(2, rows, columns, 3)``."""
@@ -80,6 +98,7 @@ class Scene:
 def difference(found: np.ndarray, wanted: np.ndarray) -> tuple[float, float]:
     """Return the error of what two pairs of pictures ``(2, rows, columns, 3)`` converge to, as
     image L2 over the second one's, and its standard error."""
+    found, wanted = _blocks(found), _blocks(wanted)
     product = ((found[0] - wanted[0]) * (found[1] - wanted[1])).mean(axis=-1).ravel()
     power = float((wanted[0] * wanted[1]).mean())
     squared = product.mean() / power
@@ -88,25 +107,56 @@ def difference(found: np.ndarray, wanted: np.ndarray) -> tuple[float, float]:
     return float(error), float(0.5 * spread / max(error, np.sqrt(spread)))
 
 
+def _blocks(pictures: np.ndarray) -> np.ndarray:
+    count, rows, columns, channels = pictures.shape
+    rows, columns = rows // _BLOCK, columns // _BLOCK
+    whole = pictures[:, : rows * _BLOCK, : columns * _BLOCK]
+    return whole.reshape(count, rows, _BLOCK, columns, _BLOCK, channels).mean(axis=(2, 4))
+
+
 def print_result(scene: Scene, errors: dict[str, tuple[float, float]], times: SampleTimes) -> None:
-    """Print the table of the materials, and times and errors."""
+    """Print the materials, then the table of times and errors and what it shows."""
     print(f"\n{'':18}{'share':>8}  {'proposed':18}{'off by':>8}  reason")
     for row in scene.report.rows:
         one = row.proposal
         print(f"{row.name:18}{one.share:8.1%}  {one.then!s:18}{one.error_then:8.2%}  {one.reason}")
     print(
-        f"\n{'':12}{'a sample':>10}{'over Walk':>12}{'start':>10}"
-        f"{'error measured':>18}{'predicted':>12}"
+        f"\n| {len(scene.found)} materials | a sample | over Walk | predicted | error | predicted |"
     )
+    print("| --- | --- | --- | --- | --- | --- |")
+    walk = scene.predicted_time("Walk")
     for variant in VARIANTS:
         error, spread = errors[variant]
-        measured = f"{100 * error:.2f} +- {100 * spread:.2f} %"
         print(
-            f"{variant:12}{1000 * times.median(variant):7.0f} ms"
-            f"{times.ratio(variant, 'Walk'):12.2f}{times.start(variant):8.1f} s"
-            f"{measured:>18}{scene.predicted(variant):12.2%}"
+            f"| {variant} | {1000 * times.median(variant):.0f} ms "
+            f"| {times.ratio(variant, 'Walk'):.2f} | {scene.predicted_time(variant) / walk:.2f} "
+            f"| {100 * error:.2f} ± {100 * spread:.2f} % | {100 * scene.predicted(variant):.2f} % |"
         )
-    print(f"Predicted time over Walk: {scene.report.time_ratio:.2f}")
+    steps = [row.proposal.then.quality for row in scene.report.rows]
+    counts = ", ".join(f"{steps.count(step)} {step}" for step in dict.fromkeys(steps))
+    error, spread = errors[ANALYSED]
+    print(
+        f"\nAs analysed ({counts}) a sample takes {times.ratio(ANALYSED, 'Walk'):.2f} times as "
+        f"long as all in Walk and {times.ratio(ANALYSED, 'Fitted'):.2f} times as long as all in "
+        f"Fitted; the picture is {100 * error:.2f} ± {100 * spread:.2f} % off, of "
+        f"{percent(scene.report.tolerance)} allowed."
+    )
+
+
+def write_picture(
+    path: Path, pairs: dict[str, np.ndarray], errors: dict[str, tuple[float, float]]
+) -> None:
+    """Write all variants side by side as PNG, Exact first."""
+    shown = [np.clip(pair.mean(axis=0), 0.0, 1.0) ** (1.0 / 2.2) for pair in pairs.values()]
+    captions = [
+        [f"off by {100 * errors[name][0]:.2f} ± {100 * errors[name][1]:.2f} %"]
+        if name in errors
+        else ["the reference"]
+        for name in pairs
+    ]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    picture = comparison.side_by_side(shown, list(pairs), captions, FOOTER)
+    comparison.write_png(path, picture)
 
 
 def main() -> None:
@@ -114,7 +164,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m scenes.mixed_demo", description=__doc__)
     parser.add_argument("--tolerance", type=float, default=DEFAULT_TOLERANCE)
     parser.add_argument("--samples", type=int, default=96, help="a pixel (%(default)s)")
-    parser.add_argument("--rounds", type=int, default=3, help="of timing (%(default)s)")
+    parser.add_argument("--rounds", type=int, default=5, help="of timing (%(default)s)")
     parser.add_argument("--save", type=Path, metavar="FILE", help="also save the scene as .blend")
     arguments = parser.parse_args()
     begin = time.perf_counter()
@@ -126,18 +176,19 @@ def main() -> None:
     Scene(arguments.tolerance).switch("Walk")
     scene = Scene(arguments.tolerance)  # of materials that are all in Walk
     tell("rendering the reference, Exact")
-    wanted = scene.pictures("Exact", 8 * arguments.samples, first_seed=100)
+    pairs = {"Exact": scene.pictures("Exact", 4 * arguments.samples, first_seed=100)}
     errors = {}
     for variant in VARIANTS:
         tell(f"rendering {variant}")
-        found = scene.pictures(variant, arguments.samples, first_seed=0)
-        errors[variant] = difference(found, wanted)
+        pairs[variant] = scene.pictures(variant, arguments.samples, first_seed=0)
+        errors[variant] = difference(pairs[variant], pairs["Exact"])
+    write_picture(PICTURE, pairs, errors)
+    tell(f"wrote {PICTURE.relative_to(ROOT)}")
     tell("timing")
     switches = {variant: lambda v=variant: scene.switch(v) for variant in VARIANTS}
     with TemporaryDirectory() as folder, render.messages_to(Path(folder, "log")):
         times = time_samples(bpy.context.scene, switches, samples=24, rounds=arguments.rounds)
     print_result(scene, errors, times)
-    tell("in all; processor time")
     if arguments.save:
         bpy.ops.wm.save_as_mainfile(filepath=str(arguments.save.resolve()))
 

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import bpy
 
+from addon.core.step_errors import FILE
 from tools.steps import bounces, costs, pictures
 
-TARGET = Path(__file__).resolve().parent.parent / "addon" / "core" / "step_errors.toml"
-PARTS = ("left_out", "off", "costs")
+PARTS = ("left_out", "lost", "off", "costs")
 ABOUT = f"""\
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Made by `python -m tools.measure_steps`; not to be edited.
@@ -23,10 +23,12 @@ ABOUT = f"""\
 #     `alphas` what is missing after bounce 1, 2, ...: image L2 over that of all bounces, the most
 #     of a sun and of a uniform world. Models are numbered as in the parameter Model; ior is 0
 #     where there is none.
+# lost: the same as energy, of the sphere's whole picture in a uniform world.
 # off: the converged picture of such a sphere under a sun against the oracle's, image L2 and its
 #     standard error together, by the larger alpha; Single against the oracle's first bounce.
-# costs: processor time of a sample of the showcase with this material alone, for each of
-#     `cost_alphas`, over that of metal of alpha 0.25 in Single (median of {costs.ROUNDS} rounds).
+# costs: processor time of a sample of a pixel that shows this material, for each of `cost_alphas`,
+#     over that of metal of alpha 0.25 in Single; `background` is that of a pixel of the world
+#     (median of {costs.ROUNDS} rounds).
 """
 
 
@@ -34,7 +36,7 @@ def main() -> None:
     """Measure the parts that are asked for, keep the others, and write the file."""
     parser = argparse.ArgumentParser(prog="python -m tools.measure_steps", description=__doc__)
     parser.add_argument("parts", nargs="*", help=f"what to measure: {', '.join(PARTS)} (all)")
-    parser.add_argument("--output", type=Path, default=TARGET, help="file to write (%(default)s)")
+    parser.add_argument("--output", type=Path, default=FILE, help="file to write (%(default)s)")
     arguments = parser.parse_args()
     for part in arguments.parts:
         if part not in PARTS:
@@ -48,17 +50,21 @@ def main() -> None:
         print(f"{time.perf_counter() - begin:5.0f} s  {text}", flush=True)
 
     if "left_out" in parts:
-        data["left_out"] = list(bounces.rows())
-        tell("bounces measured")
+        data["left_out"] = list(bounces.rows(bounces.left_out))
+        tell("pictures of bounces measured")
+    if "lost" in parts:
+        data["lost"] = list(bounces.rows(bounces.energy_lost))
+        tell("energies of bounces measured")
     if "off" in parts:
         data["off"] = pictures.rows(tell)
     if "costs" in parts:
-        data["costs"] = costs.rows()
+        data["costs"], data["background"] = costs.measure()
+        tell("costs measured")
     output.write_text(toml(data), encoding="utf-8")
     tell(f"wrote {output}")
 
 
-def toml(data: dict[str, list[dict]]) -> str:
+def toml(data: dict) -> str:
     """Return the file's text, with the parts that `data` has."""
     head = {
         "seed": bounces.SEED,
@@ -66,6 +72,7 @@ def toml(data: dict[str, list[dict]]) -> str:
         "blender": bpy.app.version_string,
         "alphas": bounces.ALPHAS,
         "cost_alphas": costs.ALPHAS,
+        "background": data.get("background", 0.0),
     }
     lines = [ABOUT, *(f"{key} = {_value(value)}" for key, value in head.items())]
     for part in PARTS:

@@ -63,4 +63,6 @@ def table(report: Report) -> list[str]:
         f"Picture: off by {percent(report.error_now)}, then {percent(report.error_then)}; "
         f"time of a sample {report.time_ratio:.2f} times that of now"
     )
+    if not report.within_tolerance:
+        lines.append("No choice of steps is within the tolerance")
     return lines

@@ -7,7 +7,7 @@ import bpy
 
 from ..nodes.analyse import apply
 from .analyse import add_tolerance_argument, analysed, table
-from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file
+from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file, saved
 from .output import emit
 
 NAME = "apply"
@@ -28,9 +28,8 @@ def run(arguments: argparse.Namespace) -> int:
     path = open_file(arguments)
     report = analysed(arguments)
     done, left = apply(bpy.context, report)
-    saved = save_file(arguments)
-    lines = [*table(report), f"{len(done)} materials set"]
-    lines.append(f"Saved {saved}" if saved else "Nothing was saved: add --save-as FILE or --save")
-    data = {"file": str(path), "saved": saved, "set": done, "left": left} | report.as_dict()
+    target = save_file(arguments)
+    lines = [*table(report), f"{len(done)} materials set", saved(target)]
+    data = {"file": str(path), "saved": target, "set": done, "left": left} | report.as_dict()
     emit(arguments, data, "\n".join(lines))
     return 0

@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     proof = None
     if arguments.prove:
         try:
-            proof = prove(path, arguments.time_limit, lambda text: print(text, file=sys.stderr))
+            proof = prove(path, arguments.time_limit, lambda now: print(now.text, file=sys.stderr))
         except ProofError as error:
             raise CommandError(f"{path} was not proved. {error}") from error
         findings += proof.findings(path)
@@ -62,7 +62,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _seconds(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
     if not 0.0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} is no time: give a number of seconds above 0")
     return value

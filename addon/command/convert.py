@@ -3,17 +3,18 @@
 
 import argparse
 from dataclasses import asdict
-
-import bpy
+from functools import partial
 
 from ..nodes.convert import (
     TO_NATIVE,
     TO_OURS,
     Conversion,
+    needed_groups,
     plan,
     to_microbounce,
     to_native,
 )
+from ..nodes.find import surface_materials
 from ..nodes.group import GROUP_ERRORS
 from .files import (
     add_dry_run_argument,
@@ -35,7 +36,7 @@ EXAMPLES = (
     "--to native --material Ring --save",
 )
 
-_WAYS = {"microbounce": (TO_OURS, to_microbounce), "native": (TO_NATIVE, to_native)}
+_WAYS = {"microbounce": TO_OURS, "native": TO_NATIVE}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,13 +55,16 @@ def run(arguments: argparse.Namespace) -> int:
     check_target(arguments)
     path = open_file(arguments)
     names = arguments.material
-    materials = [named_material(name) for name in names] if names else list(bpy.data.materials)
-    direction, convert = _WAYS[arguments.to]
+    materials = [named_material(name) for name in names] if names else surface_materials()
+    direction = _WAYS[arguments.to]
     try:
         if arguments.dry_run:
-            done = [plan(material, direction) for material in materials]
+            convert = partial(plan, direction=direction)
+        elif direction == TO_OURS:
+            convert = partial(to_microbounce, groups=needed_groups(materials))
         else:
-            done = [convert(material) for material in materials]
+            convert = to_native
+        done = [convert(material) for material in materials]
     except GROUP_ERRORS as error:
         raise CommandError(str(error)) from error
     converted = sum(len(conversion.converted) for conversion in done)

@@ -16,7 +16,8 @@ from ..core.cost.plan import (
     parse_region,
     parse_steps,
 )
-from ..nodes.cost.run import OUTPUT, CostError, Progress, measure
+from ..core.run import Progress
+from ..nodes.cost.run import OUTPUT, CostError, measure
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
 
@@ -110,7 +111,9 @@ def run(arguments: argparse.Namespace) -> int:
     path = open_file(arguments)
     context = bpy.context
     try:
-        report = measure(context.scene, context.view_layer, options, arguments.folder, _tell)
+        report = measure(
+            context.scene, context.view_layer, options, arguments.folder, _tell, unchanged=True
+        )
     except CostError as error:
         raise CommandError(f"{path}: {error}") from error
     text = Path(report["files"]["text"]).read_text("utf-8")

@@ -47,7 +47,8 @@ def open_file(arguments: argparse.Namespace) -> Path:
     if not path.exists():
         raise CommandError(f"{path} does not exist: check the path")
     if not path.is_file():
-        raise CommandError(f"{path} is a folder: name a .blend file")
+        noun = "a folder" if path.is_dir() else "no file"
+        raise CommandError(f"{path} is {noun}: name a .blend file")
     try:
         bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
     except RuntimeError as error:
@@ -75,12 +76,18 @@ def check_target(arguments: argparse.Namespace) -> None:
 def save_file(arguments: argparse.Namespace) -> str:
     """Save as `--save` or `--save-as` ask; return the path, "" where neither was given.
 
-    Raises CommandError where the file cannot be written.
+    Raises CommandError where the file cannot be written, or a newer Blender's would lose data.
     """
     if arguments.save_as is None and not arguments.save:
         return ""
     check_target(arguments)
     target = os.path.abspath(arguments.save_as or bpy.data.filepath)
+    made_by, this = tuple(bpy.data.version[:2]), bpy.app.version[:2]
+    if arguments.save and made_by > this:
+        raise CommandError(
+            f"{target} is of Blender {made_by[0]}.{made_by[1]}, and this is {this[0]}.{this[1]}, "
+            "which would lose what is newer: use that version, or --save-as another file"
+        )
     try:
         # Blender 4.5 would forget, in background, that the file was compressed.
         bpy.ops.wm.save_as_mainfile(
@@ -89,7 +96,7 @@ def save_file(arguments: argparse.Namespace) -> str:
     except RuntimeError as error:
         reason = str(error).strip().removeprefix("Error: ")
         raise CommandError(
-            f"{target} cannot be written: {reason}. Choose another folder"
+            f"{target} cannot be written: {reason}. Make it writable, or save elsewhere"
         ) from error
     return target
 

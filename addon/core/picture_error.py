@@ -1,24 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the errors of surfaces make up that of a picture, and how it is shared out among them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 DEFAULT_TOLERANCE = 0.01
 
 
-def limit_of(share: float, count: int, tolerance: float) -> float:
-    """Return how far off one of `count` surfaces may be that fills `share` of the picture.
+def picture_error(shares_and_errors: Iterable[tuple[float, float]]) -> float:
+    """Return the error of a picture whose surfaces are as bright as one another.
 
-    The squared errors of a picture add up by the shares of its surfaces, so each may spend an equal
-    part of the squared tolerance: share * limit^2 = tolerance^2 / count. That holds the picture
-    below the tolerance whatever the others do, is looser for what is small, and needs no search.
+    Their squared errors add up by their shares of the picture.
     """
-    return tolerance / (share * count) ** 0.5
-
-
-def picture_error(shares_and_errors: Sequence[tuple[float, float]]) -> float:
-    """Return the error of a picture whose surfaces are as bright as one another."""
     return sum(share * error**2 for share, error in shares_and_errors) ** 0.5
+
+
+def equal_part(share: float, count: int, tolerance: float) -> float:
+    """Return how far off each of `count` surfaces may be, if all spend the tolerance equally."""
+    return tolerance / (share * count) ** 0.5
 
 
 def percent(number: float) -> str:

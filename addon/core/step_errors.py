@@ -10,6 +10,7 @@ from .kinds import kind_named
 
 FILE = Path(__file__).with_name("step_errors.toml")
 STEPS = ("Single", "Fitted", "Walk")
+NAMES = ("GGX", "BECKMANN")  # of the distributions, by the numbers of the parameter Distribution
 
 # Sorts of surfaces whose errors were measured. The models are numbers of the parameter Model.
 ISOTROPIC, ANISOTROPIC = "isotropic", "anisotropic"
@@ -18,26 +19,27 @@ Interval = tuple[float, float]
 
 
 def left_out(
-    kind: str, distribution: int, model: int, alphas: Interval, iors: Interval = (1.5, 1.5)
+    kind: str,
+    distribution: int,
+    model: int,
+    alphas: Interval,
+    iors: Interval = (1.5, 1.5),
+    of: str = "left_out",
 ) -> tuple[float, ...]:
-    """Return what is missing after bounce 1, 2, ... where facets absorb nothing, as image L2.
+    """Return what is missing after bounce 1, 2, ... where facets absorb nothing.
 
     alphas -- smallest and largest larger alpha, 0 to 1
     iors   -- of glass, and 1 over them alike
+    of     -- "left_out" for image L2, "lost" for energy
 
     It is the most over both intervals, from the nearest indices that were measured on both sides;
     between alphas it is linear, which is too much rather than too little.
     """
-    table = _tables()
-    rows = [
-        row["after"]
-        for row in table["left_out"]
-        if (row["kind"], row["distribution"], row["model"])
-        == (kind_named(kind).identifier, ("GGX", "BECKMANN")[distribution], model)
-        and (kind != "DIELECTRIC" or row["ior"] in _around(_indices(), iors))
-    ]
+    by_index = _by_index(of, kind_named(kind).identifier, NAMES[distribution], model)
+    wanted = _around(sorted(by_index), iors) if kind == "DIELECTRIC" else by_index
+    rows = [by_index[index] for index in wanted]
     count = max(len(numbers) for row in rows for numbers in row)
-    nodes = (0.0, *table["alphas"])
+    nodes = (0.0, *_tables()["alphas"])
 
     def missing(row: list[list[float]], bounce: int) -> float:
         values = [0.0, *(numbers[bounce] if bounce < len(numbers) else 0.0 for numbers in row)]
@@ -52,8 +54,8 @@ def off(kind: str, distribution: int, sort: str, step: str, alphas: Interval) ->
     `step` is one of STEPS. Of Single it is the error of the first bounce. A `sort` that was not
     measured for this distribution takes the other's error, or that of isotropic surfaces.
     """
-    names = ("GGX", "BECKMANN")
-    for wanted in ((sort, names[distribution]), (sort, "GGX"), (ISOTROPIC, names[distribution])):
+    name = NAMES[distribution]
+    for wanted in ((sort, name), (sort, "GGX"), (ISOTROPIC, name)):
         for row in _tables()["off"]:
             if (row["sort"], row["distribution"]) == wanted and (row["kind"], row["step"]) == (
                 kind,
@@ -69,6 +71,11 @@ def cost(kind: str, step: str, alphas: Interval) -> float:
     table = _tables()
     (row,) = (row for row in table["costs"] if (row["kind"], row["step"]) == (kind, step))
     return most(table["cost_alphas"], row["costs"], alphas)
+
+
+def background() -> float:
+    """Return the cost of a sample of a pixel that shows the world alone, as cost() does."""
+    return _tables()["background"]
 
 
 def most(nodes: Sequence[float], values: Sequence[float], interval: Interval) -> float:
@@ -95,8 +102,14 @@ def _around(nodes: Sequence[float], iors: Interval) -> set[float]:
     return {node for node in nodes if below <= node <= above}
 
 
-def _indices() -> list[float]:
-    return sorted({row["ior"] for row in _tables()["left_out"] if row["ior"] > 0.0})
+@cache
+def _by_index(of: str, kind: str, distribution: str, model: int) -> dict[float, list[list[float]]]:
+    """Return what is missing by alpha and bounce, by the index of glass (0 for other kinds)."""
+    return {
+        row["ior"]: row["after"]
+        for row in _tables()[of]
+        if (row["kind"], row["distribution"], row["model"]) == (kind, distribution, model)
+    }
 
 
 @cache

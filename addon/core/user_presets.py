@@ -64,6 +64,8 @@ def load(path: Path) -> Preset:
 
     Raises PresetError for a file that is missing, damaged, too large or of another sort.
     """
+    if path.exists() and not path.is_file():  # of a device there is no end
+        raise PresetError(f"{path}: is no file and no preset. Choose one of the saved presets")
     try:
         size = path.stat().st_size
         if size > _LARGEST:

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Analyses all our materials of a scene, and applies what was proposed."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import bpy
 
-from ..core.analysis import Proposal, propose, time_ratio, unchanged
-from ..core.picture_error import picture_error
+from ..core.proposal import Proposal, Shown, propose, time_ratio, total_error
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
-from .share import picture_shares, shown_materials
+from .share import Shares, picture_shares, shown_materials
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Row:
             "then": {"quality": one.then.quality, "max_bounces": one.then.max_bounces},
             "error_now": round(one.error_now, 5),
             "error_then": round(one.error_then, 5),
-            "limit": round(one.limit, 5),
+            "energy_lost_now": round(one.loss_now, 5),
+            "energy_lost_then": round(one.loss_then, 5),
             "changes": one.changes,
             "reason": one.reason,
             "notes": list(self.notes),
@@ -50,12 +51,16 @@ class Report:
     """The analysis of a scene: the rows by falling share.
 
     has_camera -- False where the shares could not be found and all materials weigh the same
+    part       -- of the rays that found the shares, 0 to 1: less than 1 where time was over
+    empty      -- the part of the picture, 0 to 1, that shows nothing but the world
     """
 
     scene: str
     tolerance: float
     rows: tuple[Row, ...]
     has_camera: bool
+    part: float = 1.0
+    empty: float = 0.0
 
     @property
     def changes(self) -> tuple[Row, ...]:
@@ -63,19 +68,29 @@ class Report:
         return tuple(row for row in self.rows if row.proposal.changes)
 
     @property
+    def proposals(self) -> list[Proposal]:
+        """Those of all rows."""
+        return [row.proposal for row in self.rows]
+
+    @property
     def error_now(self) -> float:
         """The predicted error of the picture, as image L2 where all is as bright."""
-        return picture_error([(r.proposal.share, r.proposal.error_now) for r in self.rows])
+        return total_error(self.proposals)[0]
 
     @property
     def error_then(self) -> float:
         """The same with all proposals applied."""
-        return picture_error([(r.proposal.share, r.proposal.error_then) for r in self.rows])
+        return total_error(self.proposals)[1]
+
+    @property
+    def within_tolerance(self) -> bool:
+        """Whether the picture is with all proposals."""
+        return self.error_then <= self.tolerance
 
     @property
     def time_ratio(self) -> float:
         """The predicted time of a sample with all proposals, over that now."""
-        return time_ratio([row.proposal for row in self.rows])
+        return time_ratio(self.proposals, self.empty)
 
     def as_dict(self) -> dict[str, object]:
         """Return it as JSON takes it."""
@@ -83,6 +98,7 @@ class Report:
             "scene": self.scene,
             "tolerance": self.tolerance,
             "has_camera": self.has_camera,
+            "part": round(self.part, 4),
             "error_now": round(self.error_now, 5),
             "error_then": round(self.error_then, 5),
             "time_ratio": round(self.time_ratio, 3),
@@ -94,28 +110,27 @@ def analyse(
     context: bpy.types.Context,
     tolerance: float,
     progress: Callable[[float], None] = lambda part: None,
+    seconds: float = math.inf,
 ) -> Report:
     """Analyse the scene of `context` and return what is proposed; nothing is changed.
 
     tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
     progress  -- is told the part that is done, from 0 to 1
+    seconds   -- that finding the shares may take, beside what Blender needs to prepare the scene
     """
     if not 0.0 < tolerance <= 1.0:
         raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
     found = found_nodes(shown_materials(context))
-    clear = {
-        material.name_full
-        for one in found
-        if one.kind.identifier == "DIELECTRIC"
-        for material in one.materials
-    }
-    shares = picture_shares(context, lambda material: material.name_full in clear, progress)
-    rows = []
-    for one in found:
-        share = shares.of(one.materials, len(found))
-        rows.append(_row(one, share, len(found), tolerance))
+    shares = picture_shares(context, progress, seconds)
+    shown = [_shown(one, shares, len(found)) for one in found]
+    proposals = propose([one for one, _notes in shown], tolerance)
+    rows = [
+        Row(one.key, one.name, one.kind.identifier, proposal, notes)
+        for one, (_, notes), proposal in zip(found, shown, proposals, strict=True)
+    ]
     rows.sort(key=lambda row: (-row.proposal.share, row.name))
-    return Report(context.scene.name, tolerance, tuple(rows), shares.has_camera)
+    name = context.scene.name
+    return Report(name, tolerance, tuple(rows), shares.has_camera, shares.part, shares.empty)
 
 
 def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
@@ -135,12 +150,10 @@ def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[s
     return done, left
 
 
-def _row(found: Found, share: float, count: int, tolerance: float) -> Row:
+def _shown(found: Found, shares: Shares, count: int) -> tuple[Shown, tuple[str, ...]]:
+    """Return one of `count` nodes as it is shown, and notes on what could not be told."""
     surface, notes = read_surface(found)
-    now = read_choice(found)
-    reason = obstacle(found)
-    if reason:
-        proposal = unchanged(surface, now, share, count, tolerance, f"{reason}: it stays")
-    else:
-        proposal = propose(surface, now, share, count, tolerance)
-    return Row(found.key, found.name, found.kind.identifier, proposal, notes)
+    if shares.are_unmet(found.materials):
+        notes = (*notes, f"Rays cannot meet all that shows it: its share is at least 1 of {count}")
+    share = shares.of(found.materials, count)
+    return Shown(surface, read_choice(found), share, obstacle(found)), notes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds the nodes of ours: in a node tree, and in the groups within it."""
+"""Finds materials that have surfaces, and the nodes of ours in a node tree and its groups."""
 
 from collections.abc import Iterator
 
@@ -16,6 +16,11 @@ def surface_tree(material: bpy.types.Material) -> bpy.types.ShaderNodeTree | Non
     # Later nodes are always on, and the property is deprecated.
     on = bpy.app.version >= (5, 0, 0) or material.use_nodes
     return material.node_tree if on else None
+
+
+def surface_materials() -> list[bpy.types.Material]:
+    """Return the file's materials but those of grease pencil, which have no surface."""
+    return [material for material in bpy.data.materials if not material.is_grease_pencil]
 
 
 def our_nodes(tree: bpy.types.NodeTree) -> Iterator[bpy.types.ShaderNodeGroup]:

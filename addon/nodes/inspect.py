@@ -2,7 +2,7 @@
 """Finds our nodes that the materials of a scene show, and reads them as surfaces."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import bpy
@@ -13,7 +13,8 @@ from ..core.kinds import Kind, kind_named
 from ..core.parameter import Parameter
 from ..core.reflectance import mean_of_index, mean_of_tint
 from .group import KIND_KEY
-from .ranges import Path, Range, group_output, input_range
+from .ranges import Path, Range, input_range
+from .reached import reached_nodes
 
 
 @dataclass
@@ -57,16 +58,12 @@ def found_nodes(materials: Iterable[bpy.types.Material]) -> list[Found]:
     """Return our nodes that reach the outputs of these materials, each node once."""
     found: dict[tuple[int, str], Found] = {}
     for material in materials:
-        tree = material.node_tree
-        if bpy.app.version < (5, 0, 0) and not material.use_nodes:  # later always on
-            continue
-        output = tree.get_output_node("CYCLES") if tree is not None else None
-        if output is None:
-            continue
-        for path, node in _reached(tree, output):
-            tree_of_node = path[-1].node_tree if path else tree
-            key = (tree_of_node.as_pointer(), node.name)
-            one = found.setdefault(key, Found(tree_of_node, node))
+        for path, node in reached_nodes(material):
+            if node.bl_idname != "ShaderNodeGroup" or KIND_KEY not in (node.node_tree or ()):
+                continue
+            tree = path[-1].node_tree if path else material.node_tree
+            key = (tree.as_pointer(), node.name)
+            one = found.setdefault(key, Found(tree, node))
             if material not in one.materials:
                 one.materials.append(material)
             one.paths.append(path)
@@ -132,41 +129,6 @@ def apply_choice(found: Found, choice: Choice) -> None:
     quality, bounces = by_identifier["Quality"], by_identifier["MaxBounces"]
     found.node.inputs[quality.label].default_value = quality.checked(choice.quality)
     found.node.inputs[bounces.label].default_value = bounces.checked(choice.max_bounces)
-
-
-def _reached(
-    tree: bpy.types.NodeTree, output: bpy.types.Node
-) -> Iterator[tuple[Path, bpy.types.Node]]:
-    """Yield our nodes from which closures reach the output, and the groups in which they lie."""
-    waiting: list[tuple[Path, bpy.types.Node]] = [((), output)]
-    seen = set()
-    while waiting:
-        path, node = waiting.pop()
-        key = (*(one.as_pointer() for one in path), node.as_pointer())
-        if key in seen:
-            continue
-        seen.add(key)
-        group = node.node_tree if node.bl_idname == "ShaderNodeGroup" else None
-        if group is not None and not node.mute:
-            if KIND_KEY in group:
-                yield path, node
-            else:
-                end = group_output(group)
-                waiting += [((*path, node), end)] if end else []
-            continue
-        if node.bl_idname == "NodeGroupInput" and path:
-            waiting += [(path[:-1], one) for one in _linked(path[-1])]
-        waiting += [(path, one) for one in _linked(node)]
-
-
-def _linked(node: bpy.types.Node) -> list[bpy.types.Node]:
-    return [
-        link.from_node
-        for socket in node.inputs
-        if socket.type == "SHADER" or node.bl_idname == "NodeReroute"
-        for link in socket.links
-        if link.is_valid and not link.is_muted
-    ]
 
 
 def _legal_range(found: Found, parameter: Parameter, notes: list[str]) -> Range:

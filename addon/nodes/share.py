@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds how much of the camera's picture each material fills, by a grid of rays.
 
-Rays end at the first surface; through our glass they also go straight on, so that what stands
-behind it counts as well. Reflections are not followed. What the viewport hides is not met.
+Rays end at the first surface that is neither clear nor a mirror: what is seen through glass or in
+a mirror counts as well, beside the glass or mirror itself.
 """
 
+import math
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -12,12 +14,19 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Vector
 
+from .passage import Passage, passage
+from .rendered import rendered_materials, rendered_objects
+
 WIDTH = 64  # rays across the longer side of the picture
-# A surface that no ray meets may still be seen in a mirror, or be smaller than a ray's pixel.
+# A surface that no ray meets may still be seen in a rough reflection, or be smaller than a pixel
+# of the rays.
 SMALLEST_SHARE = 0.005
 
 _MOST_SURFACES = 8  # along a ray
 _STEP = 1e-4  # beyond a surface, relative to its distance
+_FAR = 1e30
+# What rays can meet: no hair, points or volumes.
+_SOLID = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
 @dataclass(frozen=True)
@@ -25,73 +34,97 @@ class Shares:
     """The parts of the picture, 0 to 1, by the materials' names in full.
 
     has_camera -- False where no share could be found, as without a camera or with a panorama's
+    unmet      -- names of materials on what rays cannot meet: hair, points, volumes, and what the
+                  viewport hides
+    part       -- of the rays that were sent before the time was over, 0 to 1
+    empty      -- the part of the picture, 0 to 1, that shows nothing but the world
     """
 
     by_name: dict[str, float]
     has_camera: bool = True
+    unmet: frozenset[str] = frozenset()
+    part: float = 1.0
+    empty: float = 0.0
 
     def of(self, materials: list[bpy.types.Material], count: int) -> float:
         """Return the share of these materials together, of `count` surfaces that are analysed.
 
-        It is at least SMALLEST_SHARE. Where no share could be found all surfaces have the same.
+        It is at least SMALLEST_SHARE, and for `unmet` materials an equal part. Where no share could
+        be found all surfaces have an equal part.
         """
+        equal = 1.0 / max(count, 1)
         if not self.has_camera:
-            return 1.0 / max(count, 1)
+            return equal
         found = sum(self.by_name.get(material.name_full, 0.0) for material in materials)
-        return min(max(found, SMALLEST_SHARE), 1.0)
+        least = equal if self.are_unmet(materials) else SMALLEST_SHARE
+        return min(max(found, least), 1.0)
+
+    def are_unmet(self, materials: list[bpy.types.Material]) -> bool:
+        """Return whether some of these materials are on what rays cannot meet."""
+        return any(material.name_full in self.unmet for material in materials)
 
 
 def picture_shares(
     context: bpy.types.Context,
-    is_clear: Callable[[bpy.types.Material], bool],
     progress: Callable[[float], None] = lambda part: None,
+    seconds: float = math.inf,
 ) -> Shares:
     """Return the materials' shares of the picture of the scene's camera at the current frame.
 
-    is_clear -- whether rays go on through a material
     progress -- is told the part that is done, from 0 to 1
+    seconds  -- when they are over, the rays that were sent until then count
     """
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     rays = list(_camera_rays(scene, depsgraph))
     if not rays:
         return Shares({}, has_camera=False)
     hits: Counter[str] = Counter()
-    slots, hidden = _Slots(depsgraph), _hidden_objects(scene)
-    for number, (origin, direction, length) in enumerate(rays):
-        if number % WIDTH == 0:
-            progress(number / len(rays))
-        met = set()
-        for material in _materials_met(scene, depsgraph, slots, hidden, origin, direction, length):
-            met.add(material.name_full)
-            if not is_clear(material):
-                break
+    sight = _Sight(scene, depsgraph)
+    sent, empty, end = 0, 0, time.monotonic() + seconds
+    for number in _spread(len(rays)):
+        if sent % WIDTH == 0:
+            progress(sent / len(rays))
+        if sent and time.monotonic() > end:
+            break
+        met = {material.name_full for material in sight.along(*rays[number])}
         hits.update(met)
-    return Shares({name: count / len(rays) for name, count in hits.items()})
+        empty += not met
+        sent += 1
+    by_name = {name: count / sent for name, count in hits.items()}
+    unmet = _unmet(context, depsgraph)
+    return Shares(by_name, unmet=unmet, part=sent / len(rays), empty=empty / sent)
 
 
 def shown_materials(context: bpy.types.Context) -> list[bpy.types.Material]:
     """Return the materials of all that the scene renders, also by instances and geometry nodes."""
-    found: dict[str, bpy.types.Material] = {}
-    hidden = _hidden_objects(context.scene)
-
-    def add(thing: bpy.types.Object) -> None:
-        materials = [slot.material for slot in thing.material_slots]
-        materials += list(getattr(thing.data, "materials", ()))
-        for material in materials:
-            if material is not None:
-                found[material.name_full] = material.original
-
+    found = dict.fromkeys(rendered_materials(context.scene))
     seen = set()
     # An instance is valid within its turn alone.
     for instance in context.evaluated_depsgraph_get().object_instances:
-        original = instance.object.original
-        if original not in seen and original not in hidden and not original.hide_render:
+        thing = instance.object
+        original = thing.original
+        if instance.is_instance and original not in seen and not original.hide_render:
             seen.add(original)
-            add(instance.object)
-    for thing in context.scene.objects:  # the viewport may hide what is rendered
-        if thing not in hidden and thing not in seen:
-            add(thing)
-    return list(found.values())
+            found |= dict.fromkeys(one.original for one in _materials(thing) if one is not None)
+    return list(found)
+
+
+def _materials(thing: bpy.types.Object) -> list[bpy.types.Material | None]:
+    """Return the materials of an evaluated object by their indices."""
+    slots = [slot.material for slot in thing.material_slots]
+    # Geometry nodes may give materials without slots.
+    return slots or list(getattr(thing.data, "materials", None) or ())
+
+
+def _unmet(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
+    """Return the names of the materials on what is rendered and rays cannot meet."""
+    met = {thing.original for thing in depsgraph.objects if thing.type in _SOLID}
+    return frozenset(
+        slot.material.name_full
+        for thing in set(rendered_objects(context.view_layer))
+        for slot in thing.material_slots
+        if slot.material is not None and (thing not in met or thing.particle_systems)
+    )
 
 
 def _hidden_objects(scene: bpy.types.Scene) -> set[bpy.types.Object]:
@@ -106,32 +139,79 @@ def _hidden_objects(scene: bpy.types.Scene) -> set[bpy.types.Object]:
     return {thing for thing in scene.objects if thing.hide_render or thing not in shown}
 
 
-class _Slots:
-    """The material of a polygon of an evaluated object; meshes are made once."""
+class _Sight:
+    """Follows rays through the scene; what materials and curves are is found once."""
 
-    def __init__(self, depsgraph: bpy.types.Depsgraph) -> None:
-        self.depsgraph = depsgraph
+    def __init__(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        self.scene, self.depsgraph = scene, depsgraph
+        self.hidden = _hidden_objects(scene)
+        self.passages: dict[str, Passage] = {}
         self.indices: dict[str, list[int]] = {}
 
-    def material(self, thing: bpy.types.Object, polygon: int) -> bpy.types.Material | None:
-        """Return it, None where the polygon has none."""
-        evaluated = thing.evaluated_get(self.depsgraph)
-        key = thing.name_full
-        if key not in self.indices:
-            mesh = evaluated.to_mesh()
-            self.indices[key] = (
-                [one.material_index for one in mesh.polygons] if mesh is not None else []
+    def along(
+        self, origin: Vector, direction: Vector, length: float
+    ) -> Iterator[bpy.types.Material]:
+        """Yield the materials along a ray; it passes through what is not rendered or not seen."""
+        for _ in range(_MOST_SURFACES):
+            hit, place, normal, face, thing, _matrix = self.scene.ray_cast(
+                self.depsgraph, origin, direction, distance=max(length, 0.0)
             )
-            evaluated.to_mesh_clear()
-        indices = self.indices[key]
-        index = indices[polygon] if 0 <= polygon < len(indices) else 0
-        slots = evaluated.material_slots
-        if len(slots):
-            found = slots[min(index, len(slots) - 1)].material
-        else:  # geometry nodes may give materials without slots
-            own = [one for one in getattr(evaluated.data, "materials", ()) if one is not None]
-            found = own[min(index, len(own) - 1)] if own else None
+            if not hit:
+                return
+            gone = (place - origin).length
+            step = _STEP * max(gone, 1.0)
+            gone += step
+            length -= gone
+            original = thing.original
+            if original in self.hidden or original.hide_render or not original.visible_camera:
+                origin = origin + direction * gone
+                continue
+            material = self._material(thing, face)
+            if material is None:
+                return
+            yield material
+            way = self._passage(material)
+            if way is Passage.ENDS:
+                return
+            if way is Passage.MIRRORED:
+                direction = direction.reflect(normal)
+                origin, length = place + direction * step, _FAR
+            else:
+                origin = origin + direction * gone
+
+    def _passage(self, material: bpy.types.Material) -> Passage:
+        name = material.name_full
+        if name not in self.passages:
+            self.passages[name] = passage(material)
+        return self.passages[name]
+
+    def _material(self, thing: bpy.types.Object, face: int) -> bpy.types.Material | None:
+        """Return the material of a face, None where it has none."""
+        evaluated = thing.evaluated_get(self.depsgraph)
+        materials = _materials(evaluated)
+        index = self._index(evaluated, face) if len(materials) > 1 else 0
+        found = materials[min(index, len(materials) - 1)] if materials else None
         return found.original if found is not None else None
+
+    def _index(self, evaluated: bpy.types.Object, face: int) -> int:
+        if isinstance(evaluated.data, bpy.types.Mesh):
+            faces = evaluated.data.polygons
+            return faces[face].material_index if 0 <= face < len(faces) else 0
+        name = evaluated.name_full
+        if name not in self.indices:  # of a curve or text
+            mesh = evaluated.to_mesh()
+            self.indices[name] = [one.material_index for one in mesh.polygons] if mesh else []
+            evaluated.to_mesh_clear()
+        indices = self.indices[name]
+        return indices[face] if 0 <= face < len(indices) else 0
+
+
+def _spread(count: int) -> Iterator[int]:
+    """Yield 0 to count - 1 in an order whose beginnings are spread over all of it."""
+    step = max(round(count * 0.618), 1)
+    while math.gcd(step, count) != 1:
+        step += 1
+    return (number * step % count for number in range(count))
 
 
 def _camera_rays(
@@ -162,31 +242,3 @@ def _camera_rays(
                 reach = 1.0 / max(-along.z, 1e-6)  # of a ray whose depth is 1
                 origin = along * start * reach
             yield place @ origin, place.to_3x3() @ along, (end - start) * reach
-
-
-def _materials_met(
-    scene: bpy.types.Scene,
-    depsgraph: bpy.types.Depsgraph,
-    slots: _Slots,
-    hidden: set[bpy.types.Object],
-    origin: Vector,
-    direction: Vector,
-    length: float,
-) -> Iterator[bpy.types.Material]:
-    """Yield the materials along a ray; it passes through what is not rendered or not seen."""
-    gone = 0.0
-    for _ in range(_MOST_SURFACES):
-        hit, place, _normal, polygon, thing, _matrix = scene.ray_cast(
-            depsgraph, origin + direction * gone, direction, distance=max(length - gone, 0.0)
-        )
-        if not hit:
-            return
-        gone = (place - origin).length
-        gone += _STEP * max(gone, 1.0)
-        original = thing.original
-        if original in hidden or original.hide_render or not original.visible_camera:
-            continue
-        material = slots.material(thing, polygon)
-        if material is None:
-            return
-        yield material

@@ -33,18 +33,23 @@ class Update:
 
 
 def old_groups() -> list[bpy.types.NodeTree]:
-    """Return the file's groups of ours that older versions made and that are used.
+    """Return the file's groups of ours that older versions made and that a node uses.
 
     Those of newer versions and those that are linked from libraries are left out. Raises
     ShaderSourceError where the installation is damaged.
     """
-    return [g for g in bpy.data.node_groups if g.users and not g.library and _is_old(g)]
+    found = [g for g in bpy.data.node_groups if g.users and not g.library and _is_old(g)]
+    if not found:
+        return []
+    # A fake user, which an asset has, is no node that could be updated.
+    used = {node.node_tree for _, tree in _shader_trees() for node in _group_nodes(tree)}
+    return [group for group in found if group in used]
 
 
 def update_materials() -> Update:
     """Put today's groups in the place of old ones, with the values and links of the same names.
 
-    Works on all materials and node groups of the file. Old groups and their texts are removed where
+    Works on all that has shader nodes in the file. Old groups and their texts are removed where
     nothing uses them any more. Raises one of GROUP_ERRORS where a group cannot be made; nothing is
     changed then.
     """
@@ -53,9 +58,8 @@ def update_materials() -> Update:
     old = set(old_groups())
     new = {kind: material_group(kind) for kind in sorted({group[KIND_KEY] for group in old})}
     for owner, tree in _shader_trees():
-        nodes = [n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup" and n.node_tree]
         curves: dict[str, Curves] | None = None
-        for node in nodes:
+        for node in _group_nodes(tree):
             reason = _obstacle(owner, node)
             if reason:
                 done.stay.append(f"{owner.name}, {node.name}: {reason}")
@@ -98,9 +102,15 @@ def _shader_trees() -> Iterator[tuple[bpy.types.ID, bpy.types.NodeTree]]:
     for group in bpy.data.node_groups:
         if group.bl_idname == "ShaderNodeTree" and KIND_KEY not in group:
             yield group, group
-    for owner in bpy.data.materials:
-        if owner.node_tree is not None:
-            yield owner, owner.node_tree
+    data = bpy.data
+    for owners in (data.materials, data.worlds, data.lights, data.linestyles):
+        for owner in owners:
+            if owner.node_tree is not None:
+                yield owner, owner.node_tree
+
+
+def _group_nodes(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
+    return [n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup" and n.node_tree]
 
 
 def _obstacle(owner: bpy.types.ID, node: bpy.types.Node) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..ui.preferences import preferences
 from ..ui.text import message
 
 # What does the work is imported when it is called: a start of Blender pays nothing for it.
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from ..nodes.analyse import Report
 
 TOLERANCE_PROPERTY = "microbounce_analysis_tolerance"
+# What finding the shares of the picture may take, so that no scene holds Blender up for long.
+_SECONDS = 5.0
 
 # The last analysis, with the file to which it belongs; nothing of it is stored in the file.
 _kept: "tuple[str, Report] | None" = None
@@ -26,20 +29,6 @@ def last_report(context: bpy.types.Context) -> "Report | None":
     return report if (path, report.scene) == (bpy.data.filepath, context.scene.name) else None
 
 
-def _tolerance() -> bpy.props.FloatProperty:
-    return bpy.props.FloatProperty(
-        name="Tolerance",
-        description="How far off the picture may be: the root of its mean squared error, "
-        "relative to the picture, apart from noise",
-        default=DEFAULT_TOLERANCE,
-        min=0.0005,
-        max=1.0,
-        soft_max=0.1,
-        step=0.1,
-        precision=4,
-    )
-
-
 class MICROBOUNCE_OT_analyse(bpy.types.Operator):
     """Make the table of proposals; change nothing."""
 
@@ -49,19 +38,32 @@ class MICROBOUNCE_OT_analyse(bpy.types.Operator):
         "Find the cheapest Quality and Max Bounces of every Microbounce material that keep the "
         "picture within the tolerance. Nothing is changed"
     )
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER"}
 
-    tolerance: _tolerance()
+    tolerance: bpy.props.FloatProperty(
+        name="Tolerance",
+        description="How far off the picture may be: the root of its mean squared error, "
+        "relative to the picture, apart from noise; that of the preferences unless given",
+        default=DEFAULT_TOLERANCE,
+        min=0.0005,
+        max=1.0,
+        soft_max=0.1,
+        step=0.1,
+        precision=4,
+        options={"SKIP_SAVE"},
+    )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Analyse the scene with a progress display at the pointer."""
         from ..nodes.analyse import analyse
 
         global _kept
+        given = self.properties.is_property_set("tolerance")
+        tolerance = self.tolerance if given else preferences(context).tolerance
         manager = context.window_manager
         manager.progress_begin(0.0, 1.0)
         try:
-            report = analyse(context, self.tolerance, manager.progress_update)
+            report = analyse(context, tolerance, manager.progress_update, _SECONDS)
         finally:
             manager.progress_end()
         _kept = (bpy.data.filepath, report)
@@ -130,12 +132,9 @@ CLASSES = (MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis)
 
 
 def register() -> None:
-    """Add the tolerance that the panel shows; it lasts as long as Blender runs."""
-    setattr(bpy.types.WindowManager, TOLERANCE_PROPERTY, _tolerance())
-
-
-def unregister() -> None:
-    """Remove it, and forget the table."""
+    """Begin without a table."""
     global _kept
-    delattr(bpy.types.WindowManager, TOLERANCE_PROPERTY)
     _kept = None
+
+
+unregister = register  # and end without one

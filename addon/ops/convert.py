@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..nodes.find import surface_materials
 from ..nodes.group import GROUP_ERRORS
 from .osl import osl_status
+from .polled import Polled
+from .presets import shown_material
 
 # Imported when it is first used, so that the extension starts sooner.
 if TYPE_CHECKING:
@@ -17,7 +20,11 @@ if TYPE_CHECKING:
 Function = Callable[[bpy.types.Material], "Conversion"]
 
 _SCOPES = (
-    ("ACTIVE", "Active Material", "The material in the active object's active slot"),
+    (
+        "ACTIVE",
+        "Active Material",
+        "The material in the editor, elsewhere in the active object's active slot",
+    ),
     ("SELECTED", "Selected Objects", "All materials of the selected objects"),
     ("ALL", "All Materials", "All materials of this file"),
 )
@@ -26,28 +33,23 @@ _SCOPES = (
 def materials_in(context: bpy.types.Context, scope: str) -> list[bpy.types.Material]:
     """Return the materials of "ACTIVE", "SELECTED" or "ALL", each once, in the file's order."""
     if scope == "ALL":
-        found = set(bpy.data.materials)
-    elif scope == "SELECTED":
+        return surface_materials()
+    if scope == "SELECTED":
         found = {s.material for obj in context.selected_objects for s in obj.material_slots}
     else:
-        # Only the Properties editor has this one; a pinned material counts.
-        material = getattr(context, "material", None)
-        if material is None and context.object is not None:
-            material = context.object.active_material
-        found = {material}
-    # Those of grease pencil have no surface.
-    return [m for m in bpy.data.materials if m in found and not m.is_grease_pencil]
+        found = {shown_material(context)}
+    return [material for material in surface_materials() if material in found]
 
 
 def _needs_materials(scope: str) -> str:
     return {
-        "ACTIVE": "The active object has no material: select one that has",
-        "SELECTED": "The selected objects have no materials: select some that have",
-        "ALL": "There are no materials in this file",
+        "ACTIVE": "The active object has no surface material: select one that has",
+        "SELECTED": "The selected objects have no surface materials: select some that have",
+        "ALL": "There are no surface materials in this file: add one",
     }[scope]
 
 
-class _Converts:
+class _Converts(Polled):
     """What both directions share; a subclass has a `planner` and a `converter`."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -58,11 +60,9 @@ class _Converts:
     )
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where the file has materials; say why otherwise."""
-        if not bpy.data.materials:
-            cls.poll_message_set(_needs_materials("ALL"))
-        return bool(bpy.data.materials)
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that the file has no materials; "" where it has."""
+        return "" if surface_materials() else _needs_materials("ALL")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Convert, and report every node that changes its look or stays, and a summary."""

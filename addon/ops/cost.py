@@ -1,23 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures what accuracy costs in the open scene, and what belongs to that."""
 
+from typing import TYPE_CHECKING
+
 import bpy
 
 from ..core.cost.plan import Options, PlanError, parse_numbers, parse_steps
+from ..core.run import RunError
+from .following import FollowsRun
 
-_INTERVAL = 0.25  # seconds between looks at a measurement that is under way
-_ESCAPE_HINT = "Measuring the cost: Esc cancels"
+# Imported when it is used: a start of Blender pays nothing for it.
+if TYPE_CHECKING:
+    from ..nodes.cost.run import CostRun
+
+# What the last measurement of this session found, as Report.as_dict() has it; None before it.
+_last: dict[str, object] | None = None
 
 
-class State:
-    """What the panel shows; of this session alone.
-
-    progress -- of the measurement that is under way, None where there is none
-    report   -- of the last one, as Report.as_dict() has it, None before the first
-    """
-
-    progress = None
-    report: dict[str, object] | None = None
+def last_report() -> dict[str, object] | None:
+    """Return what the last measurement found, None before the first."""
+    return _last
 
 
 class CostOptions:
@@ -102,8 +104,11 @@ class CostOptions:
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
 
-    def options(self) -> Options:
-        """Return the options; raises PlanError for what makes no sense."""
+    def asked(self) -> Options:
+        """Return what is asked for; raises PlanError for what makes no sense.
+
+        It is not called `options`: every operator has something else by that name.
+        """
         return Options(
             samples=self.samples,
             percentage=self.percentage,
@@ -123,7 +128,7 @@ class MICROBOUNCE_PG_cost(CostOptions, bpy.types.PropertyGroup):
     """The options in the panel."""
 
 
-class MICROBOUNCE_OT_measure_cost(CostOptions, bpy.types.Operator):
+class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
     """Render the scene's variants in a Blender of their own, and report."""
 
     bl_idname = "microbounce.measure_cost"
@@ -135,95 +140,42 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, bpy.types.Operator):
     # No UNDO: nothing of the scene changes, and a step back should not be spent on it.
     bl_options = {"REGISTER"}
 
-    _run = None
-    _timer = None
+    title = "Measuring the cost"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow one at a time, in a scene with a camera."""
-        if State.progress is not None:
-            cls.poll_message_set("A measurement is under way: Esc cancels it")
-            return False
         if context.scene.camera is None:
             cls.poll_message_set("The scene has no camera: add one")
             return False
-        return True
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Measure and wait for it, as scripts want it."""
-        from ..nodes.cost.run import CostError, measure
-
-        try:
-            report = measure(context.scene, context.view_layer, self.options(), self.output)
-        except (CostError, PlanError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._finish(report)
+        return cls.is_idle()
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Start it and go on while Blender is used."""
-        if bpy.app.background:
-            return self.execute(context)
-        from ..nodes.cost.run import CostError, CostRun
+        return self.follow(context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Measure and wait for it, as scripts want it."""
+        return self.wait(context)
+
+    def start(self, context: bpy.types.Context) -> "CostRun":
+        """Begin to measure what is asked for."""
+        from ..nodes.cost.run import CostRun
 
         try:
-            self._run = CostRun(context.scene, context.view_layer, self.options(), self.output)
-        except (CostError, PlanError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        State.progress = self._run.progress()
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
-        manager.progress_begin(0, 100)
-        manager.modal_handler_add(self)
-        context.workspace.status_text_set(_ESCAPE_HINT)
-        return {"RUNNING_MODAL"}
+            options = self.asked()
+        except PlanError as error:
+            raise RunError(str(error)) from error
+        return CostRun(context.scene, context.view_layer, options, self.output)
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Show how far it is; take its report at the end; end it on Esc."""
-        from ..nodes.cost.run import CostError
-
-        if event.type == "ESC" and event.value == "PRESS":
-            self.cancel(context)
-            self.report({"INFO"}, "Measuring was cancelled")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        if self._run.running:
-            self._show_progress(context)
-            return {"PASS_THROUGH"}
-        try:
-            report = self._run.result()
-        except CostError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        finally:
-            self.cancel(context)
-        return self._finish(report)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """End what is under way, also when Blender quits or loads another file."""
-        State.progress = None
-        self._run.close()
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
-        _redraw_panels(context)
-
-    def _show_progress(self, context: bpy.types.Context) -> None:
-        progress = self._run.progress()
-        context.window_manager.progress_update(100 * progress.part)
-        if progress != State.progress:
-            State.progress = progress
-            context.workspace.status_text_set(f"{_ESCAPE_HINT}  |  {progress.text}")
-            _redraw_panels(context)
-
-    def _finish(self, report: dict[str, object]) -> set[str]:
+    def finish(self, context: bpy.types.Context, result: dict[str, object]) -> set[str]:
+        """Keep the report for the panel, and show its plot."""
         from ..nodes.cost.run import load_plot
 
-        State.report = report
-        load_plot(report)
-        self.report({"INFO"}, report["sentence"])
+        global _last
+        _last = result
+        load_plot(result)
+        self.report({"INFO"}, result["sentence"])
         return {"FINISHED"}
 
 
@@ -248,13 +200,6 @@ class MICROBOUNCE_OT_clear_cost_cache(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _redraw_panels(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "PROPERTIES":
-                area.tag_redraw()
-
-
 CLASSES = (MICROBOUNCE_PG_cost, MICROBOUNCE_OT_measure_cost, MICROBOUNCE_OT_clear_cost_cache)
 
 
@@ -265,5 +210,6 @@ def register() -> None:
 
 def unregister() -> None:
     """Take them out, and forget the last report."""
+    global _last
     del bpy.types.WindowManager.microbounce_cost
-    State.progress = State.report = None
+    _last = None

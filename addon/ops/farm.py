@@ -2,11 +2,18 @@
 """Checks on demand whether the file renders on a farm, without the extension, as it does here."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 
 from ..core.finding import Finding, by_level, counts, worst
+from ..core.run import RunError
 from ..ui.text import message
+from .following import FollowsRun
+
+# Imported when it is used: a start of Blender pays nothing for it.
+if TYPE_CHECKING:
+    from ..nodes.farm.proof import Proof, ProofRun
 
 _PROVE = "Also render the saved file small, with and without the extension, and compare"
 
@@ -19,7 +26,7 @@ def last_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
     return _last.get(scene.session_uid)
 
 
-class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
+class MICROBOUNCE_OT_check_farm(FollowsRun, bpy.types.Operator):
     """Report what may make our materials render differently without the extension."""
 
     bl_idname = "microbounce.check_farm"
@@ -29,6 +36,8 @@ class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
         "computer without the extension. Nothing is changed"
     )
     bl_options = {"REGISTER"}
+
+    title = "Proof by rendering"
 
     prove: bpy.props.BoolProperty(
         name="Prove by Rendering",
@@ -44,45 +53,45 @@ class MICROBOUNCE_OT_check_farm(bpy.types.Operator):
         """Say what the button that renders does beyond the check."""
         return _PROVE if properties.prove else ""
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow one at a time."""
+        return cls.is_idle()
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Check; a proof is made while Blender goes on being used."""
+        return self.follow(context) if self.prove else self.execute(context)
+
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Check, keep the findings for the panel, and report how many there are."""
-        # Imported when it is used: a start of Blender pays nothing for it.
-        from ..nodes.farm.check import farm_findings
-        from ..nodes.farm.proof import ProofError
+        """Check, and wait for the proof."""
+        return self.wait(context) if self.prove else self.finish(context, None)
 
-        findings = farm_findings(context.scene)
-        if self.prove:
-            try:
-                findings += self._proof(context)
-            except ProofError as error:
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
-        _last[context.scene.session_uid] = by_level(findings)
-        if worst(findings) in ("error", "warning"):
-            text = message("Found by the check for a farm: {counts}", counts=counts(findings))
-            self.report({"WARNING"}, text)
-        elif self.prove:
-            self.report({"INFO"}, message("The file renders the same without the extension"))
-        else:
-            self.report({"INFO"}, message("The file is ready for a farm"))
-        return {"FINISHED"}
-
-    def _proof(self, context: bpy.types.Context) -> list[Finding]:
-        from ..nodes.farm.proof import ProofError, prove
+    def start(self, context: bpy.types.Context) -> "ProofRun":
+        """Begin to prove the file as it is saved."""
+        from ..nodes.farm.proof import ProofRun
 
         # Without a window Blender does not keep track of changes.
         changed = bpy.data.is_dirty and not bpy.app.background
         if not bpy.data.is_saved or changed:
-            raise ProofError(message("The proof renders the file as it is saved: save it first"))
-        path = Path(bpy.data.filepath)
-        manager = context.window_manager
-        manager.progress_begin(0, 2)
-        steps = iter(range(2))
-        try:
-            proof = prove(path, tell=lambda text: manager.progress_update(next(steps)))
-        finally:
-            manager.progress_end()
-        return proof.findings(path)
+            raise RunError(message("The proof renders the file as it is saved: save it first"))
+        return ProofRun(Path(bpy.data.filepath))
+
+    def finish(self, context: bpy.types.Context, result: "Proof | None") -> set[str]:
+        """Check, keep all findings for the panel, and report how many there are."""
+        from ..nodes.farm.check import farm_findings
+
+        findings = farm_findings(context.scene)
+        if result is not None:
+            findings += result.findings(Path(bpy.data.filepath))
+        _last[context.scene.session_uid] = by_level(findings)
+        if worst(findings) in ("error", "warning"):
+            text = message("Found by the check for a farm: {counts}", counts=counts(findings))
+            self.report({"WARNING"}, text)
+        elif result is not None:
+            self.report({"INFO"}, message("The file renders the same without the extension"))
+        else:
+            self.report({"INFO"}, message("The file is ready for a farm"))
+        return {"FINISHED"}
 
 
 CLASSES = (MICROBOUNCE_OT_check_farm,)

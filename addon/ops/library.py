@@ -6,6 +6,7 @@ from pathlib import Path
 import bpy
 
 from ..ui.preferences import preferences
+from .polled import Polled
 
 NAME = "Microbounce"
 BLEND = "microbounce.blend"
@@ -43,7 +44,7 @@ def _missing(context: bpy.types.Context) -> str:
     )
 
 
-class MICROBOUNCE_OT_register_library(bpy.types.Operator):
+class MICROBOUNCE_OT_register_library(Polled, bpy.types.Operator):
     """Add the asset library to the preferences."""
 
     bl_idname = "microbounce.register_library"
@@ -52,15 +53,13 @@ class MICROBOUNCE_OT_register_library(bpy.types.Operator):
     bl_options = {"REGISTER"}  # undo leaves the preferences alone
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where there is a library that was not added; say why otherwise."""
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that there is no library, or that it was added already; else ""."""
         if library_folder(context) is None:
-            cls.poll_message_set(_missing(context))
-            return False
+            return _missing(context)
         if registered_libraries(context):
-            cls.poll_message_set("The asset library is in the preferences already")
-            return False
-        return True
+            return "The asset library is in the preferences already"
+        return ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Add it; saving the preferences is left to the user's own setting."""
@@ -70,7 +69,7 @@ class MICROBOUNCE_OT_register_library(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class MICROBOUNCE_OT_unregister_library(bpy.types.Operator):
+class MICROBOUNCE_OT_unregister_library(Polled, bpy.types.Operator):
     """Take the asset library out of the preferences."""
 
     bl_idname = "microbounce.unregister_library"
@@ -79,12 +78,11 @@ class MICROBOUNCE_OT_unregister_library(bpy.types.Operator):
     bl_options = {"REGISTER"}  # undo leaves the preferences alone
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where the library was added; say so otherwise."""
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that the library was not added; "" where it was."""
         if registered_libraries(context):
-            return True
-        cls.poll_message_set("The asset library is not in the preferences")
-        return False
+            return ""
+        return "The asset library is not in the preferences"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove it, and no other."""

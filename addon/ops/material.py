@@ -8,6 +8,7 @@ from ..nodes.group import GROUP_ERRORS, new_material
 from ..ui.preferences import preferences
 from .kinds import KIND_ITEMS
 from .osl import osl_status
+from .polled import Polled
 
 # Types whose data hold surface materials. A volume has no surface, and grease pencil has its own.
 _TYPES = frozenset({"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD"})
@@ -22,12 +23,17 @@ def obstacle(obj: bpy.types.Object | None) -> str:
         return f"'{obj.name}' is of type {kind} and has no surface: select a mesh or a curve"
     if not obj.is_editable:
         return f"'{obj.name}' is linked from a library: make it local or a library override"
-    if not obj.material_slots and not obj.data.is_editable:
+    if not obj.material_slots and not _keeps_materials(obj.data):
         return (
             f"The data of '{obj.name}' are linked from a library and have no material slot: "
             "make the data local"
         )
     return ""
+
+
+def _keeps_materials(data: bpy.types.ID) -> bool:
+    """Return whether a file keeps what is put into the materials of an object's `data`."""
+    return data.is_editable and data.override_library is None
 
 
 def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None:
@@ -39,12 +45,12 @@ def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None
         obj.data.materials.append(material)
         return
     slot = obj.material_slots[obj.active_material_index]
-    if slot.link == "DATA" and not obj.data.is_editable:
+    if slot.link == "DATA" and not _keeps_materials(obj.data):
         slot.link = "OBJECT"
     slot.material = material
 
 
-class MICROBOUNCE_OT_add_material(bpy.types.Operator):
+class MICROBOUNCE_OT_add_material(Polled, bpy.types.Operator):
     """Give the active object a new material of ours."""
 
     bl_idname = "microbounce.add_material"
@@ -63,12 +69,9 @@ class MICROBOUNCE_OT_add_material(bpy.types.Operator):
         return f"Put a new {name} material into the active object's material slot"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it for an object that can be given a material; say why otherwise."""
-        reason = obstacle(context.object)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why not, with the remedy."""
+        return obstacle(context.object)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Make the material, assign it, and warn where its shader will not run."""

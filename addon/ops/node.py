@@ -8,23 +8,10 @@ from ..nodes.group import GROUP_ERRORS, add_group_node, material_group
 from ..ui.preferences import preferences
 from .kinds import KIND_ITEMS
 from .osl import osl_status
+from .polled import Polled
 
 
-def obstacle(context: bpy.types.Context) -> str:
-    """Return why no node can be added here, with the remedy; "" where one can."""
-    space = context.space_data
-    if space is None or space.type != "NODE_EDITOR" or space.tree_type != "ShaderNodeTree":
-        return "This works in the Shader editor: open one"
-    if space.shader_type != "OBJECT":
-        return "These materials are for objects: choose Object in the Shader editor's header"
-    if space.edit_tree is None:
-        return "There is no material here: press New in the Shader editor's header"
-    if not space.edit_tree.is_editable:
-        return f"'{space.edit_tree.name}' is linked from a library: make it local"
-    return ""
-
-
-class MICROBOUNCE_OT_add_node(bpy.types.Operator):
+class MICROBOUNCE_OT_add_node(Polled, bpy.types.Operator):
     """Add a node group at the cursor of the Shader editor."""
 
     bl_idname = "microbounce.add_node"
@@ -43,12 +30,18 @@ class MICROBOUNCE_OT_add_node(bpy.types.Operator):
         return f"Add a {surface} that keeps the light of several bounces on its microsurface"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it in a material's node tree; say why otherwise."""
-        reason = obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why no node can be added here, with the remedy; "" where one can."""
+        space = context.space_data
+        if space is None or space.type != "NODE_EDITOR" or space.tree_type != "ShaderNodeTree":
+            return "This works in the Shader editor: open one"
+        if space.shader_type != "OBJECT":
+            return "These materials are for objects: choose Object in the Shader editor's header"
+        if space.edit_tree is None:
+            return "There is no material here: press New in the Shader editor's header"
+        if not space.edit_tree.is_editable:
+            return f"'{space.edit_tree.name}' is linked from a library: make it local"
+        return ""
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Add the node under the pointer and let it follow until a click."""

@@ -6,6 +6,7 @@ import bpy
 from ..core.osl_state import Status
 from ..nodes.scene_status import scene_status
 from .exact import missed_lights
+from .polled import Polled
 
 
 def osl_status(context: bpy.types.Context) -> Status:
@@ -13,7 +14,7 @@ def osl_status(context: bpy.types.Context) -> Status:
     return scene_status(context.scene, context.preferences)
 
 
-class MICROBOUNCE_OT_enable_osl(bpy.types.Operator):
+class MICROBOUNCE_OT_enable_osl(Polled, bpy.types.Operator):
     """Set the scene's switch for Open Shading Language."""
 
     bl_idname = "microbounce.enable_osl"
@@ -24,13 +25,14 @@ class MICROBOUNCE_OT_enable_osl(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where it helps; say why where it does not."""
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why it would not help; "" where it does."""
         status = osl_status(context)
-        if status.can_enable:
-            return True
-        cls.poll_message_set(status.message or "Open Shading Language is on")
-        return False
+        if not status.can_enable:
+            return status.message or "Open Shading Language is on"
+        if not context.scene.is_editable:
+            return f"The scene '{context.scene.name}' is linked from a library: switch it on there"
+        return ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set the switch; warn where the device stands in the way or lights will be missed."""

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Applies presets and finishes to the material shown."""
 
+from collections.abc import Callable
+from functools import partial
+
 import bpy
 
 from ..core.kinds import KINDS
@@ -14,14 +17,16 @@ from ..nodes.apply import (
     preset_material,
 )
 from ..nodes.group import GROUP_ERRORS
+from ..ui.previews import icon
 from . import material as object_material
 from .osl import osl_status
+from .polled import Polled
 
 # What applying raises for a preset or a material that will not do; the messages are for users.
 APPLY_ERRORS = (PresetError, ApplyError, TypeError, *GROUP_ERRORS)
 
 # Blender keeps no copies of the texts of a list that is made anew: they must stay referenced.
-_search_items: list[tuple[str, str, str]] = []
+_search_items: list[tuple[str, str, str, int, int]] = []
 
 
 def shown_material(context: bpy.types.Context) -> bpy.types.Material | None:
@@ -68,42 +73,49 @@ def apply_to_shown(
     return []
 
 
-def report_applied(operator: bpy.types.Operator, context: bpy.types.Context, left: list) -> None:
-    """Name the inputs that were left, and say where the shader will not run."""
+def reported(
+    operator: bpy.types.Operator, context: bpy.types.Context, work: Callable[[], list[str]]
+) -> set[str]:
+    """Apply by `work`, which returns the labels of inputs that were left; return the result.
+
+    An error is reported, and so are those inputs, and where the shader will not run.
+    """
+    try:
+        left = work()
+    except APPLY_ERRORS as error:
+        operator.report({"ERROR"}, str(error))
+        return {"CANCELLED"}
     if left:
         operator.report({"INFO"}, f"Left as they are, since they are linked: {', '.join(left)}")
     status = osl_status(context)
     if not status.ok:
         operator.report({"WARNING"}, status.message)
+    return {"FINISHED"}
 
 
-class _AppliesPreset:
+class AppliesPreset(Polled):
     """What the operators that apply a preset share."""
 
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it for a material that can be changed; say why otherwise."""
-        reason = target_obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why not, with the remedy."""
+        return target_obstacle(context)
 
-    def apply(self, context: bpy.types.Context, identifier: str, finish_name: str) -> set[str]:
-        """Apply the preset and, unless its name is "", the finish; report errors."""
-        try:
-            chosen = preset(identifier)
+    def apply(
+        self, context: bpy.types.Context, find: Callable[[], Preset], finish_name: str = ""
+    ) -> set[str]:
+        """Apply the preset that `find` returns and, unless its name is "", the finish."""
+
+        def work() -> list[str]:
             surface = finish(finish_name) if finish_name else None
-            left = apply_to_shown(context, chosen, surface)
-        except APPLY_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        report_applied(self, context, left)
-        return {"FINISHED"}
+            return apply_to_shown(context, find(), surface)
+
+        return reported(self, context, work)
 
 
-class MICROBOUNCE_OT_apply_preset(_AppliesPreset, bpy.types.Operator):
+class MICROBOUNCE_OT_apply_preset(AppliesPreset, bpy.types.Operator):
     """Apply a preset that the extension brings."""
 
     bl_idname = "microbounce.apply_preset"
@@ -130,10 +142,10 @@ class MICROBOUNCE_OT_apply_preset(_AppliesPreset, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Apply it."""
-        return self.apply(context, self.identifier, self.finish)
+        return self.apply(context, partial(preset, self.identifier), self.finish)
 
 
-class MICROBOUNCE_OT_search_preset(_AppliesPreset, bpy.types.Operator):
+class MICROBOUNCE_OT_search_preset(AppliesPreset, bpy.types.Operator):
     """Find a preset by typing a part of its name, its kind or one of its tags."""
 
     bl_idname = "microbounce.search_preset"
@@ -157,10 +169,10 @@ class MICROBOUNCE_OT_search_preset(_AppliesPreset, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Apply what was chosen."""
-        return self.apply(context, self.identifier, "")
+        return self.apply(context, partial(preset, self.identifier))
 
 
-class MICROBOUNCE_OT_apply_finish(bpy.types.Operator):
+class MICROBOUNCE_OT_apply_finish(Polled, bpy.types.Operator):
     """Apply a finish to the material's node."""
 
     bl_idname = "microbounce.apply_finish"
@@ -183,22 +195,14 @@ class MICROBOUNCE_OT_apply_finish(bpy.types.Operator):
             return cls.bl_description
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where the material has a node of ours; say why otherwise."""
-        reason = finish_obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why not, with the remedy."""
+        return finish_obstacle(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set its values."""
-        try:
-            left = apply_finish(shown_material(context), finish(self.identifier))
-        except APPLY_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        report_applied(self, context, left)
-        return {"FINISHED"}
+        material = shown_material(context)
+        return reported(self, context, lambda: apply_finish(material, finish(self.identifier)))
 
 
 def described(item: Preset | Finish) -> str:
@@ -206,17 +210,20 @@ def described(item: Preset | Finish) -> str:
     return f"{item.name}: {item.description.rstrip('.')}. Source: {item.source.title.rstrip('.')}"
 
 
-def search_items() -> list[tuple[str, str, str]]:
-    """Return the items of the search: identifier, a name that holds kind and tags, tooltip."""
+def search_items() -> list[tuple[str, str, str, int, int]]:
+    """Return the items of the search, with names that hold kind and tags, and with pictures."""
     found = presets()
-    if [item[0] for item in _search_items] != [item.identifier for item in found]:
+    shown = [(item.identifier, icon(item.identifier)) for item in found]
+    if [(item[0], item[3]) for item in _search_items] != shown:
         _search_items[:] = [
             (
                 item.identifier,
                 f"{item.name} ({', '.join((KINDS[item.kind].label, *item.tags))})",
                 described(item),
+                picture,
+                number,
             )
-            for item in found
+            for number, (item, (_, picture)) in enumerate(zip(found, shown, strict=True))
         ]
     return _search_items
 

@@ -6,24 +6,14 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..nodes.group import GROUP_ERRORS
+from .polled import Polled
 
 # Imported when it is first used, so that the extension starts sooner.
 if TYPE_CHECKING:
     from ..nodes.update import Update
 
 
-def obstacle() -> str:
-    """Return why nothing can be updated, with the remedy; "" where something can."""
-    from ..nodes.update import old_groups
-
-    try:
-        found = old_groups()
-    except GROUP_ERRORS as error:
-        return str(error)
-    return "" if found else "All Microbounce materials of this file are of this version"
-
-
-class MICROBOUNCE_OT_update_materials(bpy.types.Operator):
+class MICROBOUNCE_OT_update_materials(Polled, bpy.types.Operator):
     """Put today's node groups in the place of older ones."""
 
     bl_idname = "microbounce.update_materials"
@@ -35,12 +25,15 @@ class MICROBOUNCE_OT_update_materials(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where old groups are used; say why otherwise."""
-        reason = obstacle()
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return why nothing can be updated, with the remedy; "" where something can."""
+        from ..nodes.update import old_groups
+
+        try:
+            found = old_groups()
+        except GROUP_ERRORS as error:
+            return str(error)
+        return "" if found else "All Microbounce materials of this file are of this version"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Update, and report what was lost or could not be changed."""

@@ -4,6 +4,7 @@
 They lie in Blender's own preset folders, `presets/microbounce/<kind>`, and are parsed, never run.
 """
 
+from functools import lru_cache, partial
 from pathlib import Path
 
 import bpy
@@ -12,7 +13,8 @@ from ..core.kinds import KINDS
 from ..core.presets import PresetError
 from ..core.user_presets import SUFFIX, load, preset_text, saved_parameters
 from ..nodes.apply import material_node, node_kind
-from .presets import APPLY_ERRORS, apply_to_shown, report_applied, shown_material, target_obstacle
+from .polled import Polled
+from .presets import AppliesPreset, shown_material
 
 
 def user_presets(kind: str) -> list[Path]:
@@ -20,6 +22,22 @@ def user_presets(kind: str) -> list[Path]:
     folders = bpy.utils.preset_paths(f"microbounce/{kind.lower()}")
     found = [path for folder in folders for path in Path(folder).glob(f"*{SUFFIX}")]
     return sorted(found, key=lambda path: path.name.casefold())
+
+
+def shown_name(path: Path) -> str:
+    """Return the name in a preset's file, which may have letters that the file's name lacks.
+
+    It is the file's own where that cannot be read.
+    """
+    try:
+        return _read_name(path, path.stat().st_mtime_ns)
+    except (OSError, PresetError):
+        return bpy.path.display_name(path.stem, title_case=False)
+
+
+@lru_cache(maxsize=1024)  # menus are drawn often, and files change seldom
+def _read_name(path: Path, changed: int) -> str:
+    return load(path).name
 
 
 def node_values(node: bpy.types.Node) -> dict[str, object]:
@@ -61,7 +79,7 @@ def save_user_preset(node: bpy.types.Node, name: str) -> Path:
     return path
 
 
-class MICROBOUNCE_OT_save_preset(bpy.types.Operator):
+class MICROBOUNCE_OT_save_preset(Polled, bpy.types.Operator):
     """Save the values of the material's node as a preset."""
 
     bl_idname = "microbounce.save_preset"
@@ -72,12 +90,11 @@ class MICROBOUNCE_OT_save_preset(bpy.types.Operator):
     name: bpy.props.StringProperty(name="Name", description="Name of the preset", maxlen=64)
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where there is a node of ours; say so otherwise."""
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that there is no node of ours; "" where there is one."""
         if material_node(shown_material(context)) is not None:
-            return True
-        cls.poll_message_set("No Microbounce node feeds the material's output: add one")
-        return False
+            return ""
+        return "No Microbounce node feeds the material's output: add one"
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the name, the material's to begin with."""
@@ -95,35 +112,20 @@ class MICROBOUNCE_OT_save_preset(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class MICROBOUNCE_OT_apply_user_preset(bpy.types.Operator):
+class MICROBOUNCE_OT_apply_user_preset(AppliesPreset, bpy.types.Operator):
     """Apply a preset that was saved."""
 
     bl_idname = "microbounce.apply_user_preset"
     bl_label = "Apply Saved Microbounce Preset"
     bl_description = "Give the material the values of this preset"
-    bl_options = {"REGISTER", "UNDO"}
 
     filepath: bpy.props.StringProperty(
         name="File", description="The preset's file", subtype="FILE_PATH", options={"SKIP_SAVE"}
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it for a material that can be changed; say why otherwise."""
-        reason = target_obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
-
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Read the file and set its values."""
-        try:
-            left = apply_to_shown(context, load(Path(bpy.path.abspath(self.filepath))))
-        except APPLY_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        report_applied(self, context, left)
-        return {"FINISHED"}
+        return self.apply(context, partial(load, Path(bpy.path.abspath(self.filepath))))
 
 
 class MICROBOUNCE_OT_remove_user_preset(bpy.types.Operator):

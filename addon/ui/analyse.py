@@ -7,12 +7,12 @@ import bpy
 
 from ..core.picture_error import percent
 from ..ops.analyse import (
-    TOLERANCE_PROPERTY,
     MICROBOUNCE_OT_analyse,
     MICROBOUNCE_OT_apply_analysis,
     last_report,
 )
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_lines
+from .preferences import stored_preferences
 from .text import label
 
 if TYPE_CHECKING:
@@ -24,11 +24,11 @@ _MOST_ROWS = 24
 
 def draw_analysis(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Draw the tolerance, the buttons, and the last analysis of the scene."""
-    manager = context.window_manager
-    layout.prop(manager, TOLERANCE_PROPERTY)
+    stored = stored_preferences(context)
+    if stored is not None:
+        layout.prop(stored, "tolerance")
     row = layout.row(align=True)
-    button = row.operator(MICROBOUNCE_OT_analyse.bl_idname)
-    button.tolerance = getattr(manager, TOLERANCE_PROPERTY)
+    row.operator(MICROBOUNCE_OT_analyse.bl_idname)
     row.operator(MICROBOUNCE_OT_apply_analysis.bl_idname)
     report = last_report(context)
     if report is not None:
@@ -41,6 +41,11 @@ def _draw_report(layout: bpy.types.UILayout, context: bpy.types.Context, report:
         return
     if not report.has_camera:
         layout.label(text="Shares are equal: there is no camera to find them", icon="INFO")
+    if report.part < 1.0:
+        text = label(
+            "Shares are rough: time was over at {part} of the rays", part=percent(report.part)
+        )
+        layout.label(text=text, icon="INFO")
     changes = report.changes
     rows = (*changes, *(row for row in report.rows if row not in changes))
     for row in rows[:_MOST_ROWS]:
@@ -55,6 +60,8 @@ def _draw_report(layout: bpy.types.UILayout, context: bpy.types.Context, report:
             then=percent(report.error_then),
         )
     )
+    if not report.within_tolerance:
+        column.label(text="No choice of steps is within the tolerance", icon="INFO")
     column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
 
 

@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel Cost in the render properties: options, progress, and the last result."""
 
-import textwrap
 from pathlib import Path
 
 import bpy
 
+from ..core.run import Progress
 from ..ops.cost import (
     CostOptions,
     MICROBOUNCE_OT_clear_cost_cache,
     MICROBOUNCE_OT_measure_cost,
-    State,
+    last_report,
 )
-
-# Pixels of a character at scale 1, rounded up: labels do not wrap by themselves.
-_CHARACTER_WIDTH = 8
+from .panels import draw_lines
 
 
 class MICROBOUNCE_PT_cost(bpy.types.Panel):
@@ -34,12 +32,14 @@ class MICROBOUNCE_PT_cost(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the button or how far it is, and below it the last result."""
         layout = self.layout
-        if State.progress is not None:
-            _draw_progress(layout)
+        progress = MICROBOUNCE_OT_measure_cost.progress
+        if progress is not None:
+            _draw_progress(layout, progress)
         else:
             _draw_button(layout, context.window_manager.microbounce_cost)
-        if State.report is not None:
-            _draw_report(layout, context, State.report)
+        report = last_report()
+        if report is not None:
+            _draw_report(layout, context, report)
 
 
 class MICROBOUNCE_PT_cost_options(bpy.types.Panel):
@@ -69,8 +69,7 @@ def _draw_button(layout: bpy.types.UILayout, options: CostOptions) -> None:
         setattr(button, name, getattr(options, name))
 
 
-def _draw_progress(layout: bpy.types.UILayout) -> None:
-    progress = State.progress
+def _draw_progress(layout: bpy.types.UILayout, progress: Progress) -> None:
     left = "" if progress.left is None else f", {_duration(progress.left)} left"
     layout.progress(factor=progress.part, text=f"{100 * progress.part:.0f} %{left}")
     layout.label(text=progress.text)
@@ -80,14 +79,13 @@ def _draw_progress(layout: bpy.types.UILayout) -> None:
 def _draw_report(
     layout: bpy.types.UILayout, context: bpy.types.Context, report: dict[str, object]
 ) -> None:
+    setting = report["setting"]
     box = layout.box()
+    box.label(text=f"{setting['file']}, frame {setting['frame']}", icon="FILE_BLEND")
     column = box.column(align=True)
-    scale = context.preferences.system.ui_scale
-    width = max(20, int(context.region.width / (_CHARACTER_WIDTH * scale)) - 6)
-    for line in textwrap.wrap(report["sentence"], width):
-        column.label(text=line)
+    draw_lines(column, context, report["sentence"], "BLANK1")
     grid = box.grid_flow(row_major=True, columns=4, even_columns=False, align=True)
-    error = 100 * report["setting"]["error"]
+    error = 100 * setting["error"]
     for heading in ("Variant", f"To {error:g} %", "Bias", "Noise"):
         grid.label(text=heading)
     for row in report["variants"]:
@@ -100,13 +98,16 @@ def _draw_report(
 
 
 def _cells(row: dict[str, object]) -> tuple[str, ...]:
-    time = row["seconds_to_error"]
+    seconds = row["seconds_to_error"]
+    time = "never" if seconds is None else _duration(seconds)
+    if row["seconds_to_error_open"]:
+        time += " ?"
     bias = f"{100 * row['bias']:.2g} %"
     if not row["bias_resolved"]:
         bias = f"< {100 * row['bias_resolution']:.2g} %"
     return (
         row["variant"],
-        "never" if time is None else _duration(time),
+        time,
         bias,
         f"{100 * row['noise']:.2g} %",
     )

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from ..core.kinds import KINDS
+from ..core.picture_error import DEFAULT_TOLERANCE
 
 # The extension's package, under which Blender keeps its preferences; in tests it is "addon".
 _PACKAGE = __package__.rpartition(".")[0]
@@ -13,7 +14,6 @@ _PACKAGE = __package__.rpartition(".")[0]
 # One for all kinds of material.
 _QUALITY = KINDS["CONDUCTOR"].by_identifier["Quality"]
 _DEFAULT_QUALITY = _QUALITY.choices[_QUALITY.default]
-_DEFAULT_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True)
@@ -26,17 +26,22 @@ class Preferences:
     """
 
     quality: str = _DEFAULT_QUALITY
-    tolerance: float = _DEFAULT_TOLERANCE
+    tolerance: float = DEFAULT_TOLERANCE
     library_path: str = ""
 
 
 def preferences(context: bpy.types.Context) -> Preferences:
     """Return the preferences; the defaults where Blender keeps none for the extension."""
-    addon = context.preferences.addons.get(_PACKAGE)
-    stored = addon.preferences if addon is not None else None
+    stored = stored_preferences(context)
     if stored is None:
         return Preferences()
     return Preferences(stored.quality, stored.tolerance, stored.library_path)
+
+
+def stored_preferences(context: bpy.types.Context) -> bpy.types.AddonPreferences | None:
+    """Return what Blender keeps, for panels to draw; None where it keeps nothing."""
+    addon = context.preferences.addons.get(_PACKAGE)
+    return addon.preferences if addon is not None else None
 
 
 class MicrobouncePreferences(bpy.types.AddonPreferences):
@@ -53,10 +58,11 @@ class MicrobouncePreferences(bpy.types.AddonPreferences):
     tolerance: bpy.props.FloatProperty(
         name="Tolerance",
         description="Relative error of the picture that the analysis accepts",
-        default=_DEFAULT_TOLERANCE,
-        min=0.0001,
+        default=DEFAULT_TOLERANCE,
+        min=0.0005,
         max=1.0,
         soft_max=0.1,
+        step=0.1,
         precision=4,
     )
     library_path: bpy.props.StringProperty(

@@ -22,6 +22,7 @@ from ..ops.user_presets import (
     MICROBOUNCE_OT_apply_user_preset,
     MICROBOUNCE_OT_remove_user_preset,
     MICROBOUNCE_OT_save_preset,
+    shown_name,
     user_presets,
 )
 from . import previews
@@ -60,7 +61,7 @@ class MICROBOUNCE_MT_user_presets(bpy.types.Menu):
             layout.label(text=KINDS[kind].label)
             for path in paths:
                 row = layout.row(align=True)
-                name = bpy.path.display_name(path.stem, title_case=False)
+                name = shown_name(path)
                 apply = row.operator(MICROBOUNCE_OT_apply_user_preset.bl_idname, text=name)
                 apply.filepath = str(path)
                 remove = row.operator(

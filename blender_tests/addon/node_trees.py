@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials with textures and links around one node, and node trees as plain data."""
 
-from functools import cache
-
 import bpy
 
-from addon.nodes.script import compile_source
 from blender_tests.addon.support import surface_material
 
 METALLIC = "ShaderNodeBsdfMetallic"
@@ -13,9 +10,6 @@ GLOSSY = "ShaderNodeBsdfAnisotropic"
 GLASS = "ShaderNodeBsdfGlass"
 DIFFUSE = "ShaderNodeBsdfDiffuse"
 PRINCIPLED = "ShaderNodeBsdfPrincipled"
-
-# Compiling takes most of the time of a test that begins with an empty file.
-compile_once = cache(compile_source)
 
 _PLAIN = ("INT", "FLOAT", "ENUM", "BOOLEAN", "STRING")
 

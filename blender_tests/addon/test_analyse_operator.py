@@ -9,7 +9,7 @@ import pytest
 
 from addon.command.main import main
 from addon.nodes.group import new_material
-from addon.ops.analyse import TOLERANCE_PROPERTY, last_report
+from addon.ops.analyse import last_report
 
 from .support import small_scene
 
@@ -122,7 +122,16 @@ def test_the_tolerance_decides(scene) -> None:
     """Rough metal may be a single bounce where anything will do."""
     bpy.ops.microbounce.analyse(tolerance=1.0)
     assert {row.proposal.then.quality for row in last_report(bpy.context).rows} == {"Single"}
-    assert getattr(bpy.context.window_manager, TOLERANCE_PROPERTY) == pytest.approx(0.01)
+    bpy.ops.microbounce.analyse()
+    assert last_report(bpy.context).tolerance == pytest.approx(0.01)
+
+
+def test_the_preferences_tolerance_counts_unless_one_is_given(scene, stored) -> None:
+    stored.tolerance = 0.25
+    bpy.ops.microbounce.analyse()
+    assert last_report(bpy.context).tolerance == 0.25
+    bpy.ops.microbounce.analyse(tolerance=0.5)
+    assert last_report(bpy.context).tolerance == 0.5
 
 
 def test_a_report_belongs_to_its_file_and_scene(scene) -> None:

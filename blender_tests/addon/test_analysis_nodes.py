@@ -10,10 +10,8 @@ from addon.core.kinds import KINDS
 from addon.nodes.group import add_group_node, material_group, new_material
 from addon.nodes.inspect import found_nodes, obstacle, read_choice, read_surface
 from addon.nodes.ranges import input_range
-from addon.nodes.share import SMALLEST_SHARE, Shares, picture_shares, shown_materials
-from scenes import common
 
-from .support import small_scene, surface_material
+from .support import surface_material
 
 pytestmark = pytest.mark.usefixtures("compiled_once")
 
@@ -274,89 +272,6 @@ def test_intervals() -> None:
     assert OPERATIONS["MULTIPLY"](ANYTHING, (0.0, 0.0), None) == (0.0, 0.0)
     assert corners(math.sqrt, (-1.0, 4.0)) == ANYTHING
     assert mapped((0.0, 1.0), (1.0, 1.0), (0.3, 0.6), clamp=True) == (0.3, 0.3)
-
-
-def test_shares_are_the_picture(empty_file) -> None:
-    """A unit sphere fills pi / 2.1^2 of the fixtures' picture."""
-    import bpy
-
-    scene = common.start_scene((64, 64), 1)
-    common.add_front_camera(scene)
-    material = new_material("CONDUCTOR", "Ball")
-    common.add_unit_sphere(material)
-    found = picture_shares(bpy.context, lambda material: False)
-    assert found.by_name["Ball"] == pytest.approx(math.pi / 2.1**2, rel=0.03)
-    assert shown_materials(bpy.context) == [material]
-    scene.camera.data.type = "PERSP"
-    scene.camera.data.angle = 2.0 * math.atan(1.05 / 5.0)
-    found = picture_shares(bpy.context, lambda material: False)
-    assert found.by_name["Ball"] == pytest.approx(math.pi / 2.1**2, rel=0.06)
-
-
-def test_rays_pass_through_glass_and_what_is_not_rendered(empty_file) -> None:
-    import bpy
-
-    _, sphere = small_scene(osl=True)
-    sphere.data.materials.append(new_material("CONDUCTOR", "Ball"))
-    bpy.ops.mesh.primitive_plane_add(size=20, location=(0, -2, 0), rotation=(math.pi / 2, 0, 0))
-    pane = bpy.context.object
-    pane.data.materials.append(new_material("DIELECTRIC", "Pane"))
-
-    def names(clear: bool) -> dict[str, float]:
-        return picture_shares(bpy.context, lambda material: clear).by_name
-
-    assert names(clear=False) == {"Pane": 1.0}
-    through = names(clear=True)
-    assert through["Pane"] == 1.0
-    assert 0.02 < through["Ball"] < 0.9
-    pane.hide_render = True
-    assert set(names(clear=False)) == {"Ball"}
-    assert [material.name for material in shown_materials(bpy.context)] == ["Ball"]
-    pane.hide_render, pane.visible_camera = False, False
-    assert set(names(clear=False)) == {"Ball"}
-    pane.visible_camera = True
-    collection = bpy.data.collections.new("Hidden")
-    bpy.context.scene.collection.children.link(collection)
-    bpy.context.scene.collection.objects.unlink(pane)
-    collection.objects.link(pane)
-    assert set(names(clear=False)) == {"Pane"}
-    collection.hide_render = True
-    assert set(names(clear=False)) == {"Ball"}
-    assert [material.name for material in shown_materials(bpy.context)] == ["Ball"]
-
-
-def test_instances_and_faces_have_their_materials(empty_file) -> None:
-    """A collection instance of a cube whose faces have two materials."""
-    import bpy
-
-    scene = common.start_scene((64, 64), 1)
-    common.add_front_camera(scene)
-    mesh = bpy.data.meshes.new("Tiles")
-    mesh.from_pydata(
-        [(-1, 0, -1), (0, 0, -1), (0, 0, 1), (-1, 0, 1), (1, 0, -1), (1, 0, 1)],
-        [],
-        [(0, 1, 2, 3), (1, 4, 5, 2)],
-    )
-    for kind in ("CONDUCTOR", "DIFFUSE"):
-        mesh.materials.append(new_material(kind, kind))
-    mesh.polygons[1].material_index = 1
-    collection = bpy.data.collections.new("Set")
-    collection.objects.link(bpy.data.objects.new("Tiles", mesh))
-    holder = common.add_object("Holder", None)
-    holder.instance_type, holder.instance_collection = "COLLECTION", collection
-    found = picture_shares(bpy.context, lambda material: False).by_name
-    half = 2.0 / 2.1**2
-    assert found == pytest.approx({"CONDUCTOR": half, "DIFFUSE": half}, rel=0.05)
-    assert {m.name for m in shown_materials(bpy.context)} == {"CONDUCTOR", "DIFFUSE"}
-
-
-def test_without_a_camera_all_weigh_the_same(empty_file) -> None:
-    import bpy
-
-    found = picture_shares(bpy.context, lambda material: False)
-    assert not found.has_camera
-    assert found.of([], 4) == 0.25
-    assert Shares({}).of([], 4) == SMALLEST_SHARE
 
 
 def test_every_kind_is_read_from_the_file(empty_file) -> None:

@@ -10,6 +10,8 @@ from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 from blender_tests.addon.test_operators import linked_objects, new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 OTHER = {"CONDUCTOR": "DIELECTRIC", "DIELECTRIC": "DIFFUSE", "DIFFUSE": "CONDUCTOR"}
 
 
@@ -154,16 +156,19 @@ def test_materials_without_nodes_or_output(registered, kind):
             assert material.use_nodes
 
 
-@pytest.mark.skipif("__import__('bpy').app.version >= (5, 0, 0)", reason="nodes are always on")
-def test_nodes_that_are_switched_off_are_kept(registered):
+def test_nodes_that_are_switched_off_are_kept_and_switched_on(registered):
     from addon.nodes.apply import apply_preset
+    from addon.nodes.find import surface_tree
 
     material, tree, _ = surface_material("Off")
     tree.nodes.new("ShaderNodeBsdfSheen")
-    material.use_nodes = False
+    if registered.app.version < (5, 0, 0):  # later they are always on
+        material.use_nodes = False
+        assert surface_tree(material) is None
     apply_preset(material, first_preset("CONDUCTOR"))
-    assert material.use_nodes
-    assert any(node.bl_idname == "ShaderNodeBsdfSheen" for node in material.node_tree.nodes)
+    found = [node.bl_idname for node in surface_tree(material).nodes]
+    assert "ShaderNodeBsdfSheen" in found
+    assert "ShaderNodeGroup" in found
 
 
 def test_finish_goes_over_the_preset_and_is_refused_for_other_kinds(registered):
@@ -316,6 +321,19 @@ def test_search_finds_all_presets_by_name_kind_and_tags(registered):
     identifier = items[-1][0]
     assert registered.ops.microbounce.search_preset(identifier=identifier) == {"FINISHED"}
     assert registered.data.materials[0].name == presets.preset(identifier).name
+
+
+def test_search_shows_the_pictures(registered, monkeypatch):
+    from addon.ops import presets as ops
+
+    numbers = {preset.identifier: 100 + n for n, preset in enumerate(presets.presets())}
+    monkeypatch.setattr(ops, "icon", numbers.get)  # without a window all icons are 0
+    items = ops.search_items()
+    assert {item[0]: item[3] for item in items} == numbers
+    assert [item[4] for item in items] == list(range(len(numbers)))
+    new_object(registered, registered.data.meshes.new("Mesh"))
+    registered.ops.microbounce.search_preset(identifier="conductor/gold")
+    assert registered.data.materials[0].name == "Gold"
 
 
 def test_a_corrupted_preset_is_named_and_others_work(

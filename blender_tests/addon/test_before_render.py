@@ -12,6 +12,8 @@ from blender_tests.addon.support import (
     surface_material,
 )
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 def script():
     """The script node of the file's one group."""

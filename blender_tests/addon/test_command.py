@@ -10,6 +10,8 @@ import pytest
 from addon.core import VERSION
 from blender_tests.addon.support import small_scene
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def clean(registered, tmp_path):
@@ -109,13 +111,21 @@ def test_help_has_examples_and_exit_codes(command):
 
 
 @pytest.mark.parametrize(
-    "argv", [[], ["chekc"], ["check", "--what"], ["check", "--time-limit", "-1"]]
+    "argv",
+    [
+        [],
+        ["chekc"],
+        ["check", "--what"],
+        ["check", "--time-limit", "-1"],
+        ["check", "--time-limit", "x"],
+    ],
 )
 def test_wrong_use(command, argv):
     code, out, err = command(*argv)
     assert code == 2
     assert out == ""
     assert "usage:" in err
+    assert "_seconds" not in err, "no name of the code"
 
 
 def test_files_that_cannot_be_opened(command, tmp_path):
@@ -123,6 +133,7 @@ def test_files_that_cannot_be_opened(command, tmp_path):
     assert (code, out) == (2, "")
     assert f"{tmp_path / 'gone.blend'} does not exist: check the path" in err
     assert "is a folder" in command("check", "--file", tmp_path)[2]
+    assert f"{os.devnull} is no file" in command("check", "--file", os.devnull)[2]
     text = tmp_path / "text.blend"
     text.write_text("no scene", encoding="utf-8")
     code, out, _ = command("check", "--file", text, "--json")
@@ -198,7 +209,9 @@ def test_a_target_that_cannot_be_written(clean, registered, tmp_path):
 
     # A folder in the file's place refuses everyone; a read-only folder lets root write.
     (tmp_path / "new.blend").mkdir()
-    with pytest.raises(CommandError, match=r"cannot be written: .*Choose another folder"):
+    with pytest.raises(
+        CommandError, match=r"cannot be written: .*Make it writable, or save elsewhere"
+    ):
         save_file(save_arguments("--save-as", tmp_path / "new.blend", "--overwrite"))
 
 
@@ -220,3 +233,21 @@ def test_a_compressed_file_stays_compressed(registered, clean):
     assert magic != b"BLEN"
     assert save_file(save_arguments("--save")) == str(clean)
     assert clean.read_bytes()[:4] == magic
+
+
+def test_a_newer_blenders_file_is_not_saved_in_its_place(registered, clean, tmp_path):
+    from addon.command.files import save_file
+    from addon.command.output import CommandError
+
+    registered.ops.wm.save_as_mainfile(filepath=str(clean), compress=False)
+    content = clean.read_bytes()
+    version = "{}{:02}".format(*registered.app.version[:2]).encode()
+    newer = content.replace(version, version[:-1] + b"9", 1)
+    assert newer[:20] != content[:20], "the header has the version"
+    clean.write_bytes(newer)
+    registered.ops.wm.open_mainfile(filepath=str(clean))
+    with pytest.raises(CommandError, match=r"would lose what is newer: use that version, or --sav"):
+        save_file(save_arguments("--save"))
+    assert clean.read_bytes() == newer
+    copy = tmp_path / "older.blend"
+    assert save_file(save_arguments("--save-as", copy)) == str(copy)

@@ -8,6 +8,8 @@ import pytest
 from addon.core.presets import finishes, presets
 from blender_tests.addon.support import native_material, small_scene
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def file(registered, tmp_path):
@@ -137,6 +139,19 @@ def test_converting_there_and_back(command, file, registered):
     assert command(*argv)[0] == 0
     assert node_kinds(registered, file, "Native") == ["BSDF_METALLIC"]
     assert node_kinds(registered, file, "Ours") == ["DIFFUSE"]
+
+
+def test_grease_pencil_materials_are_left_out_unless_named(command, file, registered):
+    pencil = registered.data.materials.new("Pencil")
+    registered.data.materials.create_gpencil_data(pencil)
+    pencil.use_fake_user = True
+    registered.ops.wm.save_mainfile()
+    code, out, _ = command("convert", "--to", "microbounce", "--file", file)
+    assert (code, "Pencil" in out) == (0, False)
+    arguments = ("convert", "--to", "microbounce", "--material", "Pencil", "--file", file)
+    code, out, _ = command(*arguments)
+    assert code == 1
+    assert "Pencil: It is a grease pencil material" in out
 
 
 def test_a_dry_run_that_shall_save_is_refused(command, file):

@@ -17,6 +17,8 @@ from blender_tests.addon.node_trees import (
     material_with,
 )
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 # The type, its values, the inputs that are linked, and what each becomes on our node.
 METAL_LINKS = {
     name: name

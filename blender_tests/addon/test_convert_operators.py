@@ -11,17 +11,13 @@ from blender_tests.addon.node_trees import (
     GLASS,
     METALLIC,
     PRINCIPLED,
-    compile_once,
     dump,
     material_with,
 )
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 TYPES = {"Metal": METALLIC, "Glass": GLASS, "Matte": DIFFUSE, "Mixture": PRINCIPLED}
-
-
-@pytest.fixture(autouse=True)
-def each_shader_is_compiled_once(monkeypatch):
-    monkeypatch.setattr("addon.nodes.group.compile_source", compile_once)
 
 
 @pytest.fixture
@@ -96,6 +92,19 @@ def test_a_dry_run_reports_every_node_and_changes_nothing(objects, capfd):
     assert "0 of 4 materials would be converted (0 nodes)" in text
 
 
+def test_the_active_material_is_the_one_that_the_editor_shows(registered):
+    from addon.ops.convert import materials_in
+
+    pinned, other = material_with(GLASS)[0], material_with(GLASS)[0]
+    editor = SimpleNamespace(type="NODE_EDITOR", id=pinned)
+    for context in (
+        SimpleNamespace(space_data=editor, object=SimpleNamespace(active_material=other)),
+        SimpleNamespace(space_data=None, material=pinned, object=None),
+        SimpleNamespace(space_data=None, object=SimpleNamespace(active_material=pinned)),
+    ):
+        assert materials_in(context, "ACTIVE") == [pinned]
+
+
 def test_without_materials(registered):
     poll = registered.ops.microbounce.to_microbounce.poll
     assert not poll()
@@ -109,6 +118,7 @@ def test_without_materials(registered):
 def test_grease_pencil_materials_are_left_out(registered, capfd):
     pencil = registered.data.materials.new("Pencil")
     registered.data.materials.create_gpencil_data(pencil)
+    assert not registered.ops.microbounce.to_microbounce.poll()
     material_with(GLASS)
     registered.ops.microbounce.to_microbounce(scope="ALL")
     assert "1 of 1 materials converted (1 node)" in said(capfd)

@@ -19,6 +19,8 @@ from blender_tests.addon.node_trees import (
 )
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 RED = (1.0, 0.0, 0.0, 1.0)
 METAL, CLEAR = {"Metallic": 1.0}, {"Transmission_Weight": 1.0}
 VALUES = [
@@ -168,6 +170,14 @@ def test_a_material_without_nodes(file):
     material.node_tree.nodes.clear()
     for convert in (to_microbounce, to_native):
         assert convert(material).entries == ()
+
+
+def test_a_grease_pencil_material(file):
+    pencil = file.data.materials.new("Pencil")
+    file.data.materials.create_gpencil_data(pencil)
+    for direction in (TO_OURS, TO_NATIVE):
+        (entry,) = plan(pencil, direction).entries
+        assert "grease pencil material, which has no surface: choose another" in entry.text
 
 
 def test_an_empty_group_node(file):

@@ -16,6 +16,8 @@ from blender_tests.addon.node_trees import (
 )
 from blender_tests.addon.support import render, small_scene
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 COLOR = (0.8, 0.5, 0.2, 1.0)
 
 # The type and its values. The mean colours may differ by 2 %: Cycles' own further bounces are

@@ -8,6 +8,8 @@ import pytest
 from addon.core.lamps import Lamp, exact_warning
 from blender_tests.addon.support import render, small_scene
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.mark.parametrize(
     ("lamp", "words"),

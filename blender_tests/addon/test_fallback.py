@@ -8,6 +8,8 @@ import pytest
 
 from blender_tests.addon.support import native_material, render, small_scene, surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 # Oren and Nayar's roughness over ours.
 MATTE = 0.25
 

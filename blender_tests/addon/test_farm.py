@@ -7,6 +7,8 @@ import pytest
 from blender_tests.addon.farm_scene import OurScene, findings, the_finding
 from blender_tests.addon.support import small_scene, surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def scene(registered):

@@ -5,8 +5,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from blender_tests.addon.fake_run import FakeRun
 from blender_tests.addon.support import small_scene
 from blender_tests.addon.test_panels import Record
+
+pytestmark = pytest.mark.usefixtures("compiled_once")
 
 PANELS = ("MICROBOUNCE_PT_farm_material", "MICROBOUNCE_PT_farm_shader_editor")
 
@@ -97,17 +100,13 @@ def test_the_proof_of_the_operator(scene, tmp_path, monkeypatch):
 
     path = tmp_path / "scene.blend"
     scene.ops.wm.save_as_mainfile(filepath=str(path))
+    different = proof.Proof(difference=0.5, brightness=1.0, seconds=1.0)
+    run = FakeRun(steps=2, result=different)
     asked = []
-
-    def prove(file, tell):
-        asked.append(file)
-        tell("1 of 2")
-        tell("2 of 2")
-        return proof.Proof(difference=0.5, brightness=1.0, seconds=1.0)
-
-    monkeypatch.setattr(proof, "prove", prove)
+    monkeypatch.setattr(proof, "ProofRun", lambda file: asked.append(file) or run)
     assert scene.ops.microbounce.check_farm(prove=True) == {"FINISHED"}
     assert asked == [path]
+    assert run.closed == 1
     (found,) = last(scene)
     assert "50.0% of the light" in found.message
 

@@ -38,7 +38,11 @@ def test_a_clean_file_renders_the_same_alone(saved, registered):
     assert proof.difference == 0.0, "a faceted mesh gives the same bits"
     assert proof.brightness > 0.05
     assert proof.findings(path) == []
-    assert len(told) == 2
+    assert [progress.text for progress in told] == [
+        "Rendering with the extension (1 of 2)",
+        "Rendering without the extension (2 of 2)",
+    ]
+    assert [progress.part for progress in told] == [0.0, 0.5]
     assert sorted(os.listdir(path.parent)) == ["scene.blend"], "nothing is left beside the file"
     assert "not saved" in registered.data.texts, "the open file is left alone"
     assert registered.context.scene.render.resolution_x != SIZE

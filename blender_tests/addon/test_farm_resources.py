@@ -7,6 +7,8 @@ import pytest
 from blender_tests.addon.farm_scene import OurScene, findings, the_finding
 from blender_tests.addon.support import small_scene, surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 @pytest.fixture
 def scene(registered):
@@ -54,6 +56,50 @@ def test_tiled_images(scene, tmp_path):
     assert "outside this one" in the_finding(scene.scene)[2]
     (tmp_path / "tiles.1001.png").unlink()
     assert "tiles.<UDIM>.png is missing" in the_finding(scene.scene)[2]
+
+
+def test_files_beside_the_materials(scene, tmp_path):
+    data = bpy.data
+    sky = data.images.new("Sky", 2, 2)
+    sky.filepath_raw, sky.file_format = str(tmp_path / "sky.png"), "PNG"
+    sky.save()
+    sky.source, sky.filepath = "FILE", str(tmp_path / "sky.png")
+    assert findings(scene.scene) == [], "nothing uses it"
+    sky.use_fake_user = True
+    level, _, message = the_finding(scene.scene)
+    assert level == "note", "a farm may have it"
+    assert str(tmp_path / "sky.png") in message
+    for number in range(7):
+        volume = data.volumes.new(f"Smoke {number}")
+        volume.filepath = str(tmp_path / f"gone {number}.vdb")
+        volume.use_fake_user = True
+    missing, there = findings(scene.scene)
+    assert (missing.level, there.level) == ("warning", "note")
+    assert "gone 4.vdb and 2 more." in missing.message
+    assert missing.remedy
+    assert there.message == message
+    sky.pack()
+    assert "sky" not in the_finding(scene.scene)[2]
+
+
+def test_nodes_that_read_files(scene, tmp_path):
+    profile = tmp_path / "lamp.ies"
+    profile.write_text("IESNA")
+    lamp = next(light for light in bpy.data.lights if light.users)
+    if bpy.app.version < (5, 0, 0):
+        lamp.use_nodes = True
+    node = lamp.node_tree.nodes.new("ShaderNodeTexIES")
+    assert findings(scene.scene) == []
+    node.mode, node.filepath = "EXTERNAL", str(profile)
+    level, subject, message = the_finding(scene.scene)
+    assert (level, subject) == ("warning", f"Node '{node.name}' of '{lamp.name}'")
+    assert message == f"It reads the file {profile}, outside this one."
+    profile.unlink()
+    assert "which is missing" in the_finding(scene.scene)[2]
+    node.mode = "INTERNAL"
+    node = scene.material.node_tree.nodes.new("ShaderNodeScript")
+    node.mode, node.filepath = "EXTERNAL", str(tmp_path / "dust.osl")
+    assert "dust.osl, which is missing" in the_finding(scene.scene)[2]
 
 
 def drive(socket, expression):

@@ -8,6 +8,8 @@ import pytest
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 def new_object(bpy, data, name="Thing"):
     obj = bpy.data.objects.new(name, data)
@@ -38,6 +40,40 @@ def linked_objects(bpy, tmp_path, with_slot=False):
     bpy.context.scene.collection.objects.link(linked)
     bpy.context.view_layer.objects.active = linked
     return linked
+
+
+@pytest.mark.parametrize("with_slot", [False, True])
+def test_overridden_data_keep_no_material(registered, tmp_path, with_slot):
+    obj = linked_objects(registered, tmp_path, with_slot)
+    obj = obj.override_create(remap_local_usages=True)
+    obj.data.override_create(remap_local_usages=True)
+    registered.context.view_layer.objects.active = obj
+    if not with_slot:
+        with pytest.raises(RuntimeError, match="have no material slot: make the data local"):
+            registered.ops.microbounce.add_material(kind="DIFFUSE")
+        return
+    registered.ops.microbounce.add_material(kind="DIFFUSE")
+    path = str(tmp_path / "user.blend")
+    registered.ops.wm.save_as_mainfile(filepath=path)
+    registered.ops.wm.open_mainfile(filepath=path)
+    (obj,) = [found for found in registered.data.objects if not found.library]
+    assert is_microbounce(obj.material_slots[0].material, "DIFFUSE")
+
+
+def test_osl_of_a_linked_scene_is_switched_on_in_its_own_file(registered, tmp_path):
+    data, path = registered.data, tmp_path / "library.blend"
+    registered.context.scene.render.engine = "CYCLES"
+    registered.context.scene.name = "Shot"
+    data.libraries.write(str(path), {registered.context.scene})
+    with data.libraries.load(str(path), link=True) as (_, wanted):
+        wanted.scenes = ["Shot"]
+    (linked,) = [scene for scene in data.scenes if scene.library]
+    with (
+        registered.context.temp_override(scene=linked),
+        pytest.raises(RuntimeError, match="'Shot' is linked from a library: switch it on there"),
+    ):
+        registered.ops.microbounce.enable_osl()
+    assert not linked.cycles.shading_system
 
 
 def test_object_without_slots_gets_one(registered, kind):

@@ -8,6 +8,8 @@ import pytest
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import surface_material
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 class Record:
     """Stands in for a layout: keeps the texts and operators, and checks that they can be drawn."""

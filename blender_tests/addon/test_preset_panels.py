@@ -11,6 +11,8 @@ from blender_tests.addon.support import surface_material
 from blender_tests.addon.test_apply import OTHER, first_preset, our_material
 from blender_tests.addon.test_operators import new_object
 
+pytestmark = pytest.mark.usefixtures("compiled_once")
+
 
 class Record:
     """Stands in for a layout: keeps texts, menus, buttons and icons, and checks that they exist."""
@@ -158,7 +160,7 @@ def test_own_presets_are_listed_by_kind_with_a_way_to_remove_them(
     assert names == ["save_preset"]
     for kind in ("diffuse", "conductor"):
         path = tmp_path / "microbounce" / kind / f"my_{kind}.toml"
-        path.write_text("whatever: a menu opens no file")
+        path.write_text("damaged, and listed all the same")
         path.with_suffix(".py").write_text("raise SystemExit")
     record = draw(registered, "MICROBOUNCE_MT_user_presets")
     assert [button.text for button in record.named("apply_user_preset")] == [

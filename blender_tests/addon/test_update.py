@@ -6,13 +6,10 @@ import pytest
 from addon.core.kinds import KINDS
 from addon.nodes.group import STAMP_KEY, VERSION_KEY, material_group, new_material
 from addon.nodes.update import old_groups, update_materials
-from blender_tests.addon.node_trees import compile_once, curve_paths
+from blender_tests.addon.node_trees import curve_paths
 from blender_tests.addon.support import run_blender, surface_material
 
-
-@pytest.fixture(autouse=True)
-def each_shader_is_compiled_once(monkeypatch):
-    monkeypatch.setattr("addon.nodes.group.compile_source", compile_once)
+pytestmark = pytest.mark.usefixtures("compiled_once")
 
 
 def make_old(group, version="0.0.9"):
@@ -125,6 +122,22 @@ def test_a_group_with_a_fake_user_stays(old_material):
     done = update_materials()
     assert (done.nodes, done.removed) == (1, [])
     assert group.users == 1
+    assert old_groups() == [], "there is nothing more to update"
+
+
+def test_worlds_and_lights(empty_file, kind):
+    data = empty_file.data
+    old = material_group(kind)
+    make_old(old)
+    owners = [data.worlds.new("World"), data.lights.new("Light", "POINT")]
+    for owner in owners:
+        if empty_file.app.version < (5, 0, 0):
+            owner.use_nodes = True
+        owner.node_tree.nodes.new("ShaderNodeGroup").node_tree = old
+    assert old_groups() == [old]
+    assert update_materials().nodes == 2
+    assert old_groups() == []
+    assert {our_node(owner.node_tree).node_tree for owner in owners} == {material_group(kind)}
 
 
 def test_newer_groups_stay(empty_file):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Presets that users save: written, read back, and refused without harm where they are damaged."""
 
+import errno
 import os
-import stat
 from pathlib import Path
 
 import pytest
@@ -12,6 +12,8 @@ from addon.core.kinds import KINDS
 from addon.core.presets import PresetError
 from blender_tests.addon.test_apply import holds, our_material, state
 from blender_tests.addon.test_operators import new_object
+
+pytestmark = pytest.mark.usefixtures("compiled_once")
 
 
 @pytest.fixture
@@ -112,17 +114,15 @@ def test_a_folder_that_cannot_be_written_is_named(registered, folder):
         registered.ops.microbounce.save_preset(name="Mine")
 
 
-@pytest.mark.skipif("__import__('os').geteuid() == 0", reason="root may write everywhere")
-def test_a_read_only_folder_is_named(registered, folder):
+def test_a_read_only_folder_is_named(registered, folder, monkeypatch):
+    def refused(path, mode="r", **_):
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
     shown_node(registered, "CONDUCTOR")
-    inner = folder / "conductor"
-    inner.mkdir(parents=True)
-    os.chmod(inner, stat.S_IRUSR | stat.S_IXUSR)
-    try:
-        with pytest.raises(RuntimeError, match="Make the folder writable"):
-            registered.ops.microbounce.save_preset(name="Mine")
-    finally:
-        os.chmod(inner, stat.S_IRWXU)
+    monkeypatch.setattr(Path, "open", refused)  # root may write anywhere
+    with pytest.raises(RuntimeError, match=r"Permission denied.* Make the folder writable"):
+        registered.ops.microbounce.save_preset(name="Mine")
+    assert list(folder.rglob("*.toml")) == []
 
 
 GOOD = files.preset_text("CONDUCTOR", "Good", {"Roughness": 0.5})
@@ -159,8 +159,10 @@ def test_a_damaged_file_is_named_and_the_material_untouched(registered, folder, 
 def test_files_that_are_none_are_refused(registered, folder, tmp_path):
     shown_node(registered, "CONDUCTOR")
     apply = registered.ops.microbounce.apply_user_preset
-    for path in (tmp_path / "missing.toml", tmp_path, ""):
-        with pytest.raises(RuntimeError, match=r"cannot be read|is none|is not one of"):
+    with pytest.raises(RuntimeError, match=r"missing.toml: cannot be read"):
+        apply(filepath=str(tmp_path / "missing.toml"))
+    for path in (tmp_path, "", os.devnull):
+        with pytest.raises(RuntimeError, match=r"is no file .* Choose one of the saved presets"):
             apply(filepath=str(path))
     outside = tmp_path / "outside.toml"
     outside.write_text(GOOD)
@@ -169,6 +171,20 @@ def test_files_that_are_none_are_refused(registered, folder, tmp_path):
     with pytest.raises(RuntimeError, match="none of the saved presets"):
         registered.ops.microbounce.remove_user_preset(filepath=str(outside))
     assert outside.exists()
+
+
+@pytest.mark.parametrize("name", ["Löwe", "..", "a/b", "空"])
+def test_the_menu_shows_the_name_as_it_was_given(registered, folder, name):
+    from addon.ops.user_presets import shown_name, user_presets
+
+    shown_node(registered, "DIFFUSE")
+    registered.ops.microbounce.save_preset(name=name)
+    (path,) = user_presets("DIFFUSE")
+    assert shown_name(path) == name
+    path.write_text("damaged", encoding="utf-8")
+    assert shown_name(path) == registered.path.display_name(path.stem, title_case=False)
+    path.unlink()
+    assert shown_name(path) == registered.path.display_name(path.stem, title_case=False)
 
 
 def test_a_saved_preset_can_be_removed(registered, folder, kind):

@@ -6,5 +6,5 @@ opens it with `stage`, renders with `measure` and keeps each result with `store`
 the children. `errors`, `findings` and `curves` read errors, times and their ratios from the
 results, `targets` holds them against the project's aims, `check` against the ratios of an earlier
 run. `draw` makes plots, `tables` CSV and JSON files, and `page`, with `verdict`, the README of
-``docs/benchmarks``.
+``docs/benchmarks``. `estimate` tells how long the whole takes; `synthetic` makes data for tests.
 """

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures one scene in a process of its own: ``python -m blender_tests.bench.child``.
 
-What is kept is not rendered again. On standard error a line ``STEP samples`` says that so many
-samples are done.
+What is kept is not rendered again. On standard error a line ``STEP paths`` says that so many paths
+are done (Scene.work), ``KEPT paths`` that so many were done before.
 """
 
 import argparse
@@ -21,9 +21,13 @@ def main() -> None:
     parser.add_argument("scene")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--log", type=Path, required=True)
+    parser.add_argument("--repeat", type=int, default=1, help="times the plan's rounds")
     arguments = parser.parse_args()
-    scene = next(one for one in plan.PLANS[arguments.plan] if one.name == arguments.scene)
-    measure_scene(scene, arguments.folder, arguments.log)
+    scenes = {one.name: one for one in plan.PLANS[arguments.plan]}
+    if arguments.scene not in scenes:
+        parser.error(f"{arguments.scene}: the scenes of this plan are {', '.join(scenes)}")
+    scene = scenes[arguments.scene]
+    measure_scene(scene.repeated(arguments.repeat), arguments.folder, arguments.log)
 
 
 def measure_scene(scene: plan.Scene, folder: Path, log: Path) -> None:
@@ -32,20 +36,22 @@ def measure_scene(scene: plan.Scene, folder: Path, log: Path) -> None:
     measure = Measure(scene, log)
     path = store.reference_path(folder, scene)
     reference = store.load(path)
-    if reference is None:
+    kept = reference is not None
+    if not kept:
         reference = measure.reference()
         store.save(path, reference)
-    _tell(2 * scene.reference_samples)
+    _tell(kept, scene.work(None, 2 * scene.reference_samples))
     for turn, top in enumerate(scene.tops):
         for variant in scene.variants:
             path = store.run_path(folder, scene, variant, turn)
-            if store.load(path) is None:
+            kept = store.load(path) is not None
+            if not kept:
                 store.save(path, measure.run(variant, turn, reference))
-            _tell(top)
+            _tell(kept, scene.work(variant, top))
 
 
-def _tell(samples: int) -> None:
-    print(f"STEP {samples}", file=sys.stderr, flush=True)
+def _tell(kept: bool, paths: int) -> None:
+    print(f"{'KEPT' if kept else 'STEP'} {paths}", file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from addon.core.cost.statistics import ErrorSplit
+
 # A median of as many rounds at least is told as a time.
 FEWEST_ROUNDS = 5
 
@@ -21,7 +23,8 @@ class Curve:
     cpu     -- seconds that all threads took for a sample, by round
     wall    -- seconds that passed, by round
     start   -- seconds that all threads took for the first render after the switch, by round
-    bias    -- squared error of what it converges to, and that number's standard error
+    bias    -- of what it converges to; None where there are not the pictures to tell it
+    piece   -- seconds that all threads took for a render beside its samples, median of the rounds
     """
 
     variant: str
@@ -32,7 +35,8 @@ class Curve:
     cpu: tuple[float, ...]
     wall: tuple[float, ...]
     start: tuple[float, ...]
-    bias: tuple[float, float] = (math.nan, math.nan)
+    bias: ErrorSplit | None = None
+    piece: float = 0.0
 
     @property
     def a_sample(self) -> float:
@@ -116,9 +120,3 @@ def gains(ours: Curve, theirs: Curve, count: int = 33) -> list[tuple[float, floa
         return []
     times = np.geomspace(*span, count)
     return [(float(t), found) for t in times if (found := gain(ours, theirs, float(t)))]
-
-
-def best_at(curves: list[Curve], seconds: float) -> Curve | None:
-    """The curve with the smallest error at a time; None where none has one."""
-    found = [(squared, c) for c in curves if (squared := c.squared_at(seconds)) is not None]
-    return min(found, key=lambda pair: pair[0])[1] if found else None

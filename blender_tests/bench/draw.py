@@ -5,10 +5,12 @@ import math
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from blender_tests.figures.draw import FAINT, INK, WIDTH, heading, place, svg
+from blender_tests.figures.draw import BOUNCE_COLOURS, FAINT, INK, PAPER, WIDTH, heading, place, svg
 
 from .curves import Curve, gain
 from .findings import SceneFindings
@@ -27,52 +29,55 @@ from .plan import (
     WALK_COUNTS,
     WHOLE_WALK,
 )
+from .verdict import moment, times_text
 
-# After Okabe and Ito, as in the figures; related variants share a colour and differ in their line.
+# Those of the figures; related variants share a colour and differ in their line.
+_BLUE, _ORANGE, _GREEN, _PURPLE, _ = BOUNCE_COLOURS
 COLOURS = {
-    SINGLE: "#8a8a8a",
-    FITTED: "#d55e00",
-    WALK: "#0072b2",
-    UNCORRELATED: "#0072b2",
-    TRACKED: "#0072b2",
-    ONE_WALK: "#222222",
-    WHOLE_WALK: "#222222",
-    EXACT: "#a0478a",
-    CYCLES: "#009e73",
-    CYCLES_SVM: "#009e73",
+    SINGLE: FAINT,
+    FITTED: _ORANGE,
+    WALK: _BLUE,
+    UNCORRELATED: _BLUE,
+    TRACKED: _BLUE,
+    ONE_WALK: INK,
+    WHOLE_WALK: INK,
+    EXACT: _PURPLE,
+    CYCLES: _GREEN,
+    CYCLES_SVM: _GREEN,
 }
 LINES = {UNCORRELATED: ":", TRACKED: "--", CYCLES_SVM: "--", ONE_WALK: "-.", WHOLE_WALK: ":"}
-_LEFT, _GAP, _TOP = 0.75, 0.55, 0.95  # inches
+_LEFT, _GAP, _TOP = 0.75, 0.55, 0.75  # inches
+_MARKS = "Numbers: how many times smaller the squared error is."
+_HALO = [withStroke(linewidth=2.0, foreground=PAPER)]
 
 
-def draw_scene(found: SceneFindings, baseline: str, seconds: float) -> str:
-    """Error over time of all variants; marks of equal time at `seconds` over the `baseline`."""
-    page = Figure(figsize=(WIDTH, 4.8))
-    heading(page, found.scene.title, note(found))
+def draw_scene(found: SceneFindings) -> str:
+    """Error over time of all variants, with marks of equal time."""
+    page = Figure(figsize=(WIDTH, 4.6))
+    heading(page, found.scene.title, f"{note(found)} {_MARKS}")
     axes = place(page, _LEFT, _TOP, 5.9, 3.2)
     shown = [curve for curve in found.curves.values() if curve.known]
     _curves(axes, shown, found.resolution)
-    _marks(axes, shown, found.curves.get(baseline), seconds)
+    _marks(axes, shown, *moment(found))
     axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), handlelength=2.6)
     return svg(page, f"{found.scene.title}: error over time")
 
 
-def draw_headline(scenes: Sequence[tuple[SceneFindings, str, float]]) -> str:
-    """A few scenes side by side, with the variants that matter: (findings, baseline, seconds)."""
+def draw_headline(scenes: Sequence[SceneFindings]) -> str:
+    """A few scenes side by side, with the variants that matter."""
     page = Figure(figsize=(WIDTH, 3.7))
     heading(
         page,
         "Error over time",
-        "Relative L2 error over seconds of processor time. Marks: how many times smaller the "
-        "squared error is than that of the named curve in the same time.",
+        f"Relative L2 error over seconds of processor time. {_MARKS}",
     )
     wide = (WIDTH - _LEFT - _GAP * (len(scenes) - 1) - 0.15) / len(scenes)
-    for column, (found, baseline, seconds) in enumerate(scenes):
+    for column, found in enumerate(scenes):
         axes = place(page, _LEFT + column * (wide + _GAP), 0.95, wide, 1.95)
         names = (FITTED, WALK, ONE_WALK, WHOLE_WALK, SINGLE, CYCLES)
         shown = [found.curves[name] for name in names if name in found.curves]
         _curves(axes, shown, found.resolution, labelled=column == 0)
-        _marks(axes, shown, found.curves.get(baseline), seconds)
+        _marks(axes, shown, *moment(found))
         axes.set_title(found.scene.title, color=INK, fontsize=8)
         if column == 0:
             handles, labels = axes.get_legend_handles_labels()
@@ -80,23 +85,25 @@ def draw_headline(scenes: Sequence[tuple[SceneFindings, str, float]]) -> str:
     return svg(page, "Error over time")
 
 
-def draw_sweeps(found: dict[str, SceneFindings]) -> str:
-    """What the limit of bounces, the number of walks and the size of the picture cost."""
-    page = Figure(figsize=(WIDTH, 3.6))
+def draw_sweeps(found: dict[str, SceneFindings]) -> str | None:
+    """What the limit of bounces, the number of walks and the size of the picture cost; None where
+    none of that was measured over its whole range."""
+    page = Figure(figsize=(WIDTH, 3.9))
     heading(
         page,
         "What bounces, walks and pixels cost",
         "Processor time of a sample; bars: the range of the rounds. Left and middle relative to "
         "the first point.",
     )
-    wide = (WIDTH - _LEFT - 2 * 0.7 - 0.15) / 3
+    gap = 0.7
+    wide = (WIDTH - _LEFT - 2 * gap - 0.15) / 3
     panels = (
         ("Max Bounces", "MaxBounces {}", BOUNCES, ("bounces_showcase", "bounces_slab")),
         ("Walks", "Walks {}", WALK_COUNTS, ("walks_white", "walks_slab")),
         ("Per cent of the showcase's width", "{} %", PERCENTAGES, ("sizes",)),
     )
     for column, (label, form, values, scenes) in enumerate(panels):
-        axes = place(page, _LEFT + column * (wide + 0.7), 0.95, wide, 2.0)
+        axes = place(page, _LEFT + column * (wide + gap), _TOP, wide, 2.0)
         for line, name in zip(("-", "--"), scenes, strict=False):
             if name in found:
                 _sweep(axes, found[name], form, values, line, relative=column < 2)
@@ -105,11 +112,16 @@ def draw_sweeps(found: dict[str, SceneFindings]) -> str:
         axes.minorticks_off()
         if column == 2:
             axes.set(yscale="log", ylabel="seconds a sample")
-        elif column == 0:
+            _plain_numbers(axes.yaxis)
+        else:
+            axes.set_ylim(bottom=0.0)
+        if column == 0:
             axes.set_ylabel("time relative to the first")
         if axes.lines:
-            axes.legend(fontsize=6, handlelength=2.2)
-    return svg(page, "What bounces, walks and pixels cost")
+            axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.22), fontsize=7, ncols=1,
+                        handlelength=2.2)  # fmt: skip
+    drawn = any(axes.lines for axes in page.axes)
+    return svg(page, "What bounces, walks and pixels cost") if drawn else None
 
 
 def note(found: SceneFindings) -> str:
@@ -141,15 +153,26 @@ def _curves(axes: Axes, curves: Sequence[Curve], resolution: float, labelled: bo
     if labelled:
         axes.set_ylabel("error in %")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_formatter(NullFormatter())
+        _plain_numbers(axis)
 
 
-def _marks(axes: Axes, curves: Sequence[Curve], baseline: Curve | None, seconds: float) -> None:
-    """A line at a time, and at each curve how many times less squared error it has there."""
+def _plain_numbers(axis: Axis) -> None:
+    """Numbers as one writes them along a logarithmic axis, more of them where it is short."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1.0,) if high / low > 300.0 else (1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _marks(axes: Axes, curves: Sequence[Curve], name: str, seconds: float) -> None:
+    """A line at a time, and at each curve how many times less squared error it has there than the
+    curve of this name."""
+    baseline = next((curve for curve in curves if curve.variant == name), None)
     if baseline is None or baseline.error_at(seconds) is None:
         return
     axes.axvline(seconds, color=FAINT, lw=0.6, ls="--")
+    axes.annotate(f"than {baseline.variant}", (seconds, 1.0), (3, -2), ("data", "axes fraction"),
+                  "offset points", va="top", fontsize=6, color=FAINT)  # fmt: skip
     for curve in curves:
         found = gain(curve, baseline, seconds)
         if found is None or curve is baseline:
@@ -157,13 +180,9 @@ def _marks(axes: Axes, curves: Sequence[Curve], baseline: Curve | None, seconds:
         level = 100.0 * curve.error_at(seconds)
         axes.plot([seconds], [level], "s", color=COLOURS[curve.variant], ms=3.5)
         if curve.variant in (FITTED, WALK, EXACT, CYCLES):
-            axes.annotate(f"{_times(found)}× {baseline.variant}", (seconds, level), (4, 3),
-                          textcoords="offset points", fontsize=6,
-                          color=COLOURS[curve.variant])  # fmt: skip
-
-
-def _times(value: float) -> str:
-    return f"{value:.0f}" if value >= 9.95 else f"{value:.2g}"
+            axes.annotate(f"{times_text(found)}×", (seconds, level), (4, 3), fontsize=7,
+                          textcoords="offset points", color=COLOURS[curve.variant],
+                          path_effects=_HALO)  # fmt: skip
 
 
 def _sweep(

@@ -8,10 +8,9 @@ of its own. The oracle's pictures have little noise: there first and second are 
 
 import numpy as np
 
-from addon.core.cost.statistics import split_error
+from addon.core.cost.statistics import ErrorSplit, split_error
 
 Reference = dict[str, np.ndarray]
-UNKNOWN = (float("nan"), float("nan"))
 
 
 def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") -> float:
@@ -28,20 +27,18 @@ def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") 
     return float(product[mask].mean() / (first * second)[mask].mean())
 
 
-def squared_bias(
+def converged(
     pictures: list[np.ndarray], reference: Reference, variant: str = ""
-) -> tuple[float, float]:
-    """Squared error of what a variant converges to, and its standard error, from pictures of equal
-    samples and independent noise; it may come out negative.
+) -> ErrorSplit | None:
+    """Error of what a variant converges to, from pictures of equal samples and independent noise.
 
-    UNKNOWN without a reference or with fewer than two pictures.
+    None without a reference or with fewer than two pictures.
     """
     if "first" not in reference or len(pictures) < 2:
-        return UNKNOWN
+        return None
     mask = reference["mask"][..., None]
     pair = [np.where(mask, one, 0.0) for one in _pair(reference, variant)]
-    split = split_error([np.where(mask, one, 0.0) for one in pictures], pair)
-    return split.bias_square, split.bias_square_se
+    return split_error([np.where(mask, one, 0.0) for one in pictures], pair)
 
 
 def resolution(reference: Reference, error: np.ndarray | None = None) -> float:

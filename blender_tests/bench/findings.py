@@ -7,9 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from addon.core.cost.statistics import ErrorSplit
+
 from . import store
 from .curves import Curve
-from .errors import UNKNOWN, squared_bias
+from .errors import converged
 from .machine import Machine
 from .plan import Scene, Variant
 
@@ -87,17 +89,16 @@ def _curve(
         tuple(float(run["wall"]) for run in runs),
         tuple(float(run["start"]) for run in runs),
         _bias(variant, runs, reference),
+        float(np.median([run["piece"] for run in runs])),
     )
 
 
-def _bias(
-    variant: Variant, runs: list[store.Result], reference: store.Result
-) -> tuple[float, float]:
+def _bias(variant: Variant, runs: list[store.Result], reference: store.Result) -> ErrorSplit | None:
     """From the pictures of rounds that went far enough, whose noise is independent."""
     if variant.percentage:  # pictures of another size than the reference
-        return UNKNOWN
+        return None
     pictures = [run["picture"] for run in runs if "picture" in run]
-    return squared_bias(pictures, reference, variant.name)
+    return converged(pictures, reference, variant.name)
 
 
 def _load(path: Path, scene: Scene) -> store.Result:

@@ -73,8 +73,9 @@ class Measure:
 
         Arrays over the levels: ``samples``, ``squared_error`` (mean over the mask, relative to the
         mean square of the reference; nan without one); ``cpu`` and ``wall``, seconds a sample;
-        ``start``, processor seconds of the first render, which compiles the shaders; ``picture`` at
-        ``scene.paired`` samples, of rounds that have as many.
+        ``start``, processor seconds of the first render, which compiles the shaders; ``piece``, of
+        a render beside its samples; ``picture`` at ``scene.paired`` samples, of rounds that have as
+        many.
         """
         top = self.scene.tops[turn]
         self._switch(variant)
@@ -92,12 +93,15 @@ class Measure:
             errors.append(squared_error(total / level, reference, variant.name))
             if level == self.scene.paired:
                 kept["picture"] = (total / level).astype(np.float32)
+        cpu, piece = split_times([(cpu, count) for cpu, _, count in times])
+        wall, _ = split_times([(wall, count) for _, wall, count in times])
         return {
             "samples": np.array(found),
             "squared_error": np.array(errors),
-            "cpu": np.array(_a_sample([(cpu, count) for cpu, _, count in times])),
-            "wall": np.array(_a_sample([(wall, count) for _, wall, count in times])),
+            "cpu": np.array(cpu),
+            "wall": np.array(wall),
             "start": np.array(start),
+            "piece": np.array(piece),
             **kept,
         }
 
@@ -126,13 +130,14 @@ class Measure:
         return render.combined(passes).astype(np.float64), passes
 
 
-def _a_sample(times: list[tuple[float, int]]) -> float:
-    """Seconds a sample, from the largest of the pieces, less what a piece takes by itself.
+def split_times(times: list[tuple[float, int]]) -> tuple[float, float]:
+    """Seconds a sample, and what a piece takes by itself, from (seconds, samples) of the pieces.
 
-    That is what the pieces of a single sample take more than a sample does.
+    The largest piece, the last, takes more than those of a single sample by its further samples.
     """
     seconds, count = times[-1]
-    if count < 2:
-        return seconds
     single = statistics.median([one for one, many in times if many == 1])
-    return max((seconds - single) / (count - 1), 1e-9)
+    if count < 2:
+        return seconds, 0.0
+    a_sample = max((seconds - single) / (count - 1), 1e-9)
+    return a_sample, max(single - a_sample, 0.0)

@@ -51,7 +51,7 @@ def headline_table(found: Mapping[str, SceneFindings]) -> str:
     )  # fmt: skip
     rows = []
     for one in found.values():
-        if one.scene.is_sweep or CYCLES not in one.curves:
+        if one.scene.is_sweep or not {SINGLE, FITTED, WALK, CYCLES} <= one.curves.keys():
             continue
         seconds = moment(one)[1]
         curves = one.curves
@@ -82,8 +82,8 @@ every number here, and every word that depends on one, is filled in from the dat
 [curves.csv](curves.csv) (error over time), [costs.csv](costs.csv) (time of a sample, bias),
 [results.json](results.json) (all of it).
 
-**Time** is that of the processor, of all threads together, which other work on the machine hardly
-changes; the files have the time that passed as well. The first render after each switch, which
+**Time** is that of the processor, of all threads together, which other work on the machine changes
+less than the time that passes; the files have both. The first render after each switch, which
 compiles the shaders, is left out and told by itself. A time of a sample is the median of
 {min(rounds)} rounds or more, in which the variants take turns; its range over the rounds stands
 beside it.{few} Denoiser and adaptive sampling are off, and nothing is clamped.
@@ -106,23 +106,37 @@ by the same kernel."""
 def _aims(aims: Sequence[Target]) -> str:
     if not aims:
         return ""
-    rows = [
-        (
-            aim.aim,
-            aim.scene,
-            f"{_number(aim.value)} ({_number(aim.low)} to {_number(aim.high)} over {aim.span})",
-            "reached" if aim.reached else "**not reached**",
-        )
-        for aim in aims
-    ]
+    texts = []
+    for aim in dict.fromkeys(one.aim for one in aims):
+        some = [one for one in aims if one.aim == aim]
+        rows = [(one.scene, _measured(one), _verdict(one)) for one in some]
+        reached = sum(one.reached for one in some)
+        title = f"**{aim}**: reached in {reached} of {len(some)}."
+        texts.append(f"{title}\n\n{table(('scene', 'measured', ''), rows)}")
     reached = sum(aim.reached for aim in aims)
+    every = "\n\n".join(texts)
     return f"""## The project's aims
 
-Reached are {reached} of {len(aims)}. Gains at equal time are told at the time in which the plain
-estimator takes {TOLD_AT} samples, or at the nearest time that both have; their range is over all
-times that both have.
+Reached are {reached} of {len(aims)}. A ratio of times is the median of the rounds, with their
+range. A gain at equal time is told at the time in which the plain estimator takes {TOLD_AT}
+samples, or at the nearest time that both have, with its range over all times that both have.
 
-{table(("aim", "scene", "measured", ""), rows)}"""
+{every}"""
+
+
+def _measured(aim: Target) -> str:
+    if math.isnan(aim.value):
+        return "no time that both have"
+    return f"{_number(aim.value)} ({_number(aim.low)} to {_number(aim.high)} over {aim.span})"
+
+
+def _verdict(aim: Target) -> str:
+    if math.isnan(aim.value):
+        return "not told"
+    verdict = "reached" if aim.reached else "**not reached**"
+    if aim.low <= aim.limit <= aim.high:
+        verdict += f", but not in all {aim.span}" if aim.reached else f", but in some {aim.span}"
+    return verdict
 
 
 def _losses(found: Sequence[SceneFindings]) -> str:
@@ -185,13 +199,8 @@ def _models(one: SceneFindings) -> str:
 def _row(curve: Curve, cycles: Curve | None, base: Curve, seconds: float) -> tuple[str, ...]:
     low, high = curve.spread
     mine, other = curve.squared_at(seconds), base.squared_at(seconds)
-    squared, error = curve.bias
-    if math.isnan(squared):
-        converged = "–"
-    else:
-        bias = math.sqrt(max(squared, 0.0))
-        spread = 0.5 * error / max(bias, math.sqrt(error)) if error > 0.0 else 0.0
-        converged = f"{100 * bias:.2f} ± {100 * spread:.2f} %"
+    bias = curve.bias
+    converged = "–" if bias is None else f"{100 * bias.bias:.2f} ± {100 * bias.bias_se:.2f} %"
     return (
         curve.variant,
         f"{1e3 * curve.a_sample:.2f} ({1e3 * low:.2f} to {1e3 * high:.2f})",
@@ -248,13 +257,17 @@ def _error(error: float | None) -> str:
 
 
 def _reached(curve: Curve, error: float) -> str:
-    """The time to an error; whether it is out of reach, or only later than was measured."""
+    """The time to an error; whether its bias keeps it from there, or it is later, or that is not
+    told, since the bias is about as large as the error."""
     if not curve.known:
         return "–"
     seconds = curve.seconds_to(error)
     if seconds is not None:
         return _time(seconds)
-    return "never" if curve.bias[0] > error**2 else f"> {_time(curve.seconds[-1])}"
+    later = f"> {_time(curve.seconds[-1])}"
+    if curve.bias is None or curve.bias.doubtful(error):
+        return f"{later}?"
+    return "never" if curve.bias.bias > error else later
 
 
 def _time(seconds: float) -> str:

@@ -71,6 +71,17 @@ def swept(variant: Variant, parameter: str, values: Iterable[int]) -> tuple[Vari
     )
 
 
+# Of the stages' pictures at their full size.
+PIXELS = {
+    "slab": 64**2,
+    "sun": 64**2,
+    "back": 64**2,
+    "furnace": 64**2,
+    "showcase": 512 * 336,
+    "mesh": 128 * 80,
+}
+
+
 @dataclass(frozen=True)
 class Scene:
     """One scene, under all its variants.
@@ -109,14 +120,24 @@ class Scene:
         """Samples of the pictures that tell bias from noise: the first two rounds have as many."""
         return min(self.tops[:2])
 
+    def work(self, variant: Variant | None, samples: int) -> int:
+        """Paths that a render starts, for the progress; without a variant that of the reference."""
+        percentage = variant.percentage if variant and variant.percentage else self.percentage
+        return samples * PIXELS[self.stage] * percentage**2 // 100**2
+
     @property
-    def cost(self) -> int:
-        """Samples of all renders, for the progress bar."""
-        return len(self.variants) * sum(self.tops) + 2 * self.reference_samples
+    def whole_work(self) -> int:
+        """`work` of all rounds and of the reference's two renders."""
+        rounds = sum(self.work(variant, sum(self.tops)) for variant in self.variants)
+        return rounds + self.work(None, 2 * self.reference_samples)
 
     def shortened(self, tops: tuple[int, ...], reference_samples: int = 0) -> "Scene":
         """The same with other numbers of samples."""
         return replace(self, tops=tops, reference_samples=reference_samples)
+
+    def repeated(self, times: int) -> "Scene":
+        """The same with so many times its rounds; what is kept of the first ones still holds."""
+        return replace(self, tops=self.tops * times)
 
     def with_variants(self, *names: str) -> "Scene":
         """The same with these of its variants alone."""
@@ -215,12 +236,12 @@ FULL = (*SLABS, *BALLS, *FURNACES, SHOWCASE, MESH, *SWEEPS.values())
 # What `make bench-check` measures and `make bench` records: few scenes, few samples.
 QUICK_ROUNDS = 7
 QUICK = (
-    replace(SHOWCASE, reference="").shortened((8,) * QUICK_ROUNDS).with_variants(
+    replace(SHOWCASE, reference="").shortened((16,) * QUICK_ROUNDS).with_variants(
         SINGLE, FITTED, WALK, EXACT, CYCLES, CYCLES_SVM
     ),
     SLABS[2].shortened((16,) * QUICK_ROUNDS).with_variants(SINGLE, FITTED, WALK, ONE_WALK, CYCLES),
-    BALLS[0].shortened((32,) * QUICK_ROUNDS).with_variants(SINGLE, FITTED, WALK, ONE_WALK, CYCLES),
-    SWEEPS["bounces_showcase"].shortened((8,) * QUICK_ROUNDS).with_variants(
+    BALLS[0].shortened((64,) * QUICK_ROUNDS).with_variants(SINGLE, FITTED, WALK, ONE_WALK, CYCLES),
+    SWEEPS["bounces_showcase"].shortened((16,) * QUICK_ROUNDS).with_variants(
         "Walk, MaxBounces 2", "Walk, MaxBounces 16"
     ),
 )  # fmt: skip

@@ -5,7 +5,7 @@ import queue
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from tqdm import tqdm
@@ -19,6 +19,7 @@ from .plan import Scene
 SILENCE = 1200.0
 # A child that fails is started once more: it goes on behind what is kept.
 ATTEMPTS = 2
+_SELDOM = 30.0  # seconds from one line of progress to the next in a log
 _SHOWN = 12  # lines of a failed child's messages
 
 
@@ -32,28 +33,35 @@ def run_scenes(
     folder: Path,
     log: Path,
     show: bool,
+    repeat: int = 1,
     silence: float = SILENCE,
     command: Callable[..., list[str]] | None = None,
 ) -> list[str]:
     """Measure the scenes of the plan of this name; return what went wrong, one text a scene.
 
+    show    -- progress and the time left as a bar that moves, for a terminal, not now and then
+    repeat  -- how many times the plan's rounds; the scenes have that many already
     silence -- seconds without a word after which a child is ended
-    command -- for tests: makes the child's command line from plan, scene's name, folder and log
+    command -- for tests: makes the child's command line from what child_command takes
     """
     command = command or child_command
     failures = []
-    total = sum(scene.cost for scene in scenes)
-    with tqdm(total=total, unit=" samples", unit_scale=True, disable=not show) as bar:
+    total = sum(scene.whole_work for scene in scenes)
+    # Scenes differ in what a path takes: the time that is left goes by the whole run.
+    often = 0.1 if show else _SELDOM
+    with tqdm(total=total, unit=" paths", unit_scale=True, smoothing=0, mininterval=often) as bar:
         for scene in scenes:
             bar.set_postfix_str(scene.name)
-            done = 0
+            before = bar.n
             for attempt in range(ATTEMPTS):
-                bar.update(-done)  # what an attempt before counted is counted again
-                done = 0
+                bar.n = before
                 try:
-                    for count in _steps(command(plan, scene.name, folder, log), silence):
-                        done += count
-                        bar.update(count)
+                    for new, paths in _steps(
+                        command(plan, scene.name, folder, log, repeat), silence
+                    ):
+                        if not new:
+                            bar.initial += paths  # no time went by for them
+                        bar.update(paths)
                     break
                 except ChildFailedError as error:
                     if attempt == ATTEMPTS - 1:
@@ -61,14 +69,16 @@ def run_scenes(
     return failures
 
 
-def child_command(plan: str, scene: str, folder: Path, log: Path) -> list[str]:
+def child_command(plan: str, scene: str, folder: Path, log: Path, repeat: int) -> list[str]:
     """The command line that measures one scene."""
-    module = "blender_tests.bench.child"
-    return [sys.executable, "-m", module, plan, scene, str(folder), "--log", str(log)]
+    return [
+        sys.executable, "-m", "blender_tests.bench.child", plan, scene, str(folder),
+        "--log", str(log), "--repeat", str(repeat),
+    ]  # fmt: skip
 
 
-def _steps(command: list[str], silence: float):
-    """Yield the samples that a child has done, as it says so. Raises ChildFailedError."""
+def _steps(command: list[str], silence: float) -> Iterator[tuple[bool, int]]:
+    """Yield whether paths are new, and how many, as a child says so. Raises ChildFailedError."""
     child = subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
     )
@@ -77,8 +87,8 @@ def _steps(command: list[str], silence: float):
     said: list[str] = []
     try:
         while (line := lines.get(timeout=silence)) is not None:
-            if line.startswith("STEP "):
-                yield int(line.split()[1])
+            if line.startswith(("STEP ", "KEPT ")):
+                yield line.startswith("STEP "), int(line.split()[1])
             else:
                 said.append(line.rstrip())
         if child.wait(timeout=silence) != 0:

@@ -7,6 +7,8 @@ the shaders, the code that renders, the .blend file, the reference, Blender's ve
 
 import hashlib
 import io
+import zipfile
+import zlib
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -57,7 +59,7 @@ def load(path: Path) -> Result | None:
     try:
         with np.load(path, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
-    except (OSError, ValueError, EOFError):
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
         return None
 
 

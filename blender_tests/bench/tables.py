@@ -64,8 +64,8 @@ def results(found: Mapping[str, SceneFindings], aims: Sequence[Target]) -> str:
                         "processor_seconds_by_round": [_finite(value) for value in curve.cpu],
                         "wall_seconds_by_round": [_finite(value) for value in curve.wall],
                         "first_render_seconds_by_round": [_finite(v) for v in curve.start],
-                        "squared_bias": _finite(curve.bias[0]),
-                        "squared_bias_error": _finite(curve.bias[1]),
+                        "squared_bias": _finite(_bias(curve)[0]),
+                        "squared_bias_error": _finite(_bias(curve)[1]),
                     }
                     for curve in one.curves.values()
                 },
@@ -78,7 +78,12 @@ def results(found: Mapping[str, SceneFindings], aims: Sequence[Target]) -> str:
 
 def _costs(curve: Curve) -> tuple[float, ...]:
     wall, start = (statistics.median(times) for times in (curve.wall, curve.start))
-    return (curve.a_sample, *curve.spread, wall, start, *curve.bias)
+    return (curve.a_sample, *curve.spread, wall, start, *_bias(curve))
+
+
+def _bias(curve: Curve) -> tuple[float, float]:
+    bias = curve.bias
+    return (math.nan, math.nan) if bias is None else (bias.bias_square, bias.bias_square_se)
 
 
 def _known(values: dict[str, object]) -> dict[str, object]:

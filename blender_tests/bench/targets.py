@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The project's aims of cost, held against what was measured: reached or not reached, never hidden.
 
-The aims of time are said of pictures (the showcase and the mesh), those of error at equal time of
-surfaces under a sun without size. Two plain estimators stand for one unstratified walk a shading
-point with the same kernel: One walk, whose first bounce is ours, and Whole walk, which draws the
-first bounce too (shaders.py).
+The aims of time are held against every scene, those of error at equal time against surfaces under a
+sun without size. Two plain estimators stand for one unstratified walk a shading point with the same
+kernel: One walk, whose first bounce is ours, and Whole walk, which draws the first bounce too
+(shaders.py).
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
@@ -28,7 +29,8 @@ class Target:
     """One aim on one scene.
 
     aim   -- in words, such as "Fitted takes at most 1.1 times as long as Cycles"
-    value -- what was measured; ``low`` and ``high`` its range over rounds, or over all times
+    value -- what was measured, nan where the two share no time; ``low`` and ``high`` its range over
+             rounds, or over all times
     limit -- of the value; ``at_most`` tells on which side of it the aim lies
     span  -- what the range is over: "rounds" or "times"
     """
@@ -44,7 +46,7 @@ class Target:
 
     @property
     def reached(self) -> bool:
-        """Whether the value is on the aim's side of the limit."""
+        """Whether the value is on the aim's side of the limit; never where it is not known."""
         return self.value <= self.limit if self.at_most else self.value >= self.limit
 
     def as_dict(self) -> dict[str, object]:
@@ -55,22 +57,30 @@ class Target:
 def targets(found: Mapping[str, SceneFindings]) -> list[Target]:
     """All aims on all scenes that have what they need."""
     made = []
-    for one in found.values():
-        curves, stage = one.curves, one.scene.stage
-        if stage in ("showcase", "mesh") and one.scene.reference and CYCLES in curves:
-            made.append(_cost(one, FITTED, CYCLES, MOST_FITTED, "Fitted takes at most {:g} times "
-                              "as long as Cycles' Multiscatter"))  # fmt: skip
-        if stage in ("showcase", "mesh") and one.scene.reference and SINGLE in curves:
-            made.append(_cost(one, WALK, SINGLE, MOST_WALK, "Walk takes at most {:g} times as "
-                              "long as Single"))  # fmt: skip
-        few, many = (f"MaxBounces {count}" for count in (BOUNCES[1], BOUNCES[-1]))
-        for quality in (WALK, FITTED):
-            if f"{quality}, {many}" in curves and f"{quality}, {few}" in curves:
-                text = f"{quality} takes at most {{:g}} times as long with 16 bounces as with 2"
-                pair = f"{quality}, {many}", f"{quality}, {few}"
-                made.append(_cost(one, *pair, MOST_GROWTH, text))
-        if one.scene.directional and not one.scene.is_sweep:
-            made += [aim for plain in (ONE_WALK, WHOLE_WALK) for aim in _gains(one, plain)]
+    few, many = (f"MaxBounces {count}" for count in (BOUNCES[1], BOUNCES[-1]))
+    costs = (
+        (FITTED, CYCLES, MOST_FITTED, "Fitted takes at most {:g} times as long as Cycles' own"),
+        (WALK, SINGLE, MOST_WALK, "Walk takes at most {:g} times as long as Single"),
+        *(
+            (f"{quality}, {many}", f"{quality}, {few}", MOST_GROWTH,
+             f"{quality} takes at most {{:g}} times as long with {BOUNCES[-1]} bounces as with 2")
+            for quality in (WALK, FITTED)
+        ),
+    )  # fmt: skip
+    for ours, theirs, limit, aim in costs:
+        made += [
+            _cost(one, ours, theirs, limit, aim)
+            for one in found.values()
+            if ours in one.curves and theirs in one.curves
+        ]
+    under_sun = [s for s in found.values() if s.scene.directional and not s.scene.is_sweep]
+    for quality, limit in ((WALK, LEAST_WALK_GAIN), (FITTED, LEAST_FITTED_GAIN)):
+        for plain in (ONE_WALK, WHOLE_WALK):
+            made += [
+                _gain(one, quality, plain, limit)
+                for one in under_sun
+                if quality in one.curves and plain in one.curves
+            ]
     return made
 
 
@@ -81,21 +91,14 @@ def _cost(one: SceneFindings, ours: str, theirs: str, limit: float, aim: str) ->
                   limit, True, "rounds")  # fmt: skip
 
 
-def _gains(one: SceneFindings, baseline: str) -> list[Target]:
-    """Of Walk and Fitted over a plain estimator at equal time, as far as they were measured."""
-    made = []
-    for quality, limit in ((WALK, LEAST_WALK_GAIN), (FITTED, LEAST_FITTED_GAIN)):
-        if quality not in one.curves or baseline not in one.curves:
-            continue
-        ours, plain = one.curves[quality], one.curves[baseline]
-        every = gains(ours, plain)
-        if not every:
-            continue
+def _gain(one: SceneFindings, quality: str, baseline: str, limit: float) -> Target:
+    """Of a quality over a plain estimator at equal time, TOLD_AT or the nearest that both have."""
+    ours, plain = one.curves[quality], one.curves[baseline]
+    every = gains(ours, plain)
+    value = low = high = math.nan
+    if every:
         seconds = min(max(TOLD_AT * plain.a_sample, every[0][0]), every[-1][0])
         values = [found for _, found in every]
-        aim = f"{quality} has at least {limit:g} times less squared error than {baseline}"
-        made.append(
-            Target(aim, one.scene.title, gain(ours, plain, seconds), min(values), max(values),
-                   limit, False, "times")
-        )  # fmt: skip
-    return made
+        value, low, high = gain(ours, plain, seconds), min(values), max(values)
+    aim = f"{quality} has at least {limit:g} times less squared error than {baseline}"
+    return Target(aim, one.scene.title, value, low, high, limit, False, "times")

@@ -5,12 +5,14 @@ choice, and where ours are."""
 import math
 from collections.abc import Sequence
 
+from addon.core.cost.statistics import ErrorSplit
+
 from .curves import gains, time_ratio
 from .findings import SceneFindings
 from .plan import CYCLES, FITTED, ONE_WALK, WALK
 from .targets import TOLD_AT
 
-_CLEAR = 2.0  # standard errors by which converged errors must differ to be told apart
+_CLEAR = 3.0  # standard errors by which converged errors must differ to be told apart
 
 
 def moment(one: SceneFindings) -> tuple[str, float]:
@@ -39,10 +41,12 @@ def wins(found: Sequence[SceneFindings]) -> list[str]:
             if not ahead or every[-1][1] <= 1.0:
                 continue
             start = _last_start(every)
-            when = "at all times" if start <= every[0][0] else f"from {start:.2g} s on"
+            when = (
+                "at all times that both have" if start <= every[0][0] else f"from {start:.2g} s on"
+            )
             lines.append(
                 f"{one.scene.title}: {quality} has the smaller error {when}; in the end its "
-                f"squared error is {_times(every[-1][1])} times smaller."
+                f"squared error is {times_text(every[-1][1])} times smaller."
             )
     return lines
 
@@ -56,24 +60,25 @@ def _lost(one: SceneFindings, quality: str) -> list[str]:
     title = one.scene.title
     if len(behind) == len(every):
         lines.append(
-            f"{title}: {quality} has the larger error at all times, {every[0][0]:.2g} to "
-            f"{every[-1][0]:.2g} s; its squared error is {_times(1.0 / max(behind))} to "
-            f"{_times(1.0 / min(behind))} times Cycles'."
+            f"{title}: {quality} has the larger error at all times that both have, "
+            f"{every[0][0]:.2g} to {every[-1][0]:.2g} s; its squared error is "
+            f"{times_text(1.0 / max(behind))} to {times_text(1.0 / min(behind))} times Cycles'."
         )
     elif behind:
         lines.append(
             f"{title}: {quality} has the larger error until {_last_start(every):.2g} s, in squares "
-            f"up to {_times(1.0 / min(behind))} times Cycles'."
+            f"up to {times_text(1.0 / min(behind))} times Cycles'."
             if every[-1][1] > 1.0
             else f"{title}: {quality} has the larger error in the end, in squares "
-            f"{_times(1.0 / every[-1][1])} times Cycles'."
+            f"{times_text(1.0 / every[-1][1])} times Cycles'."
         )
     ours, theirs = one.curves[quality], one.curves[CYCLES]
-    worse = ours.bias[0] - theirs.bias[0]
-    if worse > _CLEAR * math.hypot(ours.bias[1], theirs.bias[1]):
+    mine, other = ours.bias, theirs.bias
+    if mine and other and _clearly(mine, other):
         lines.append(
-            f"{title}: what {quality} converges to is {_root(ours.bias[0])} off, Cycles "
-            f"{_root(theirs.bias[0])}; a sample takes {time_ratio(ours, theirs):.2f} times as long."
+            f"{title}: what {quality} converges to is {100 * mine.bias:.2f} % off, Cycles "
+            f"{100 * other.bias:.2f} %; a sample takes {time_ratio(ours, theirs):.2f} times as "
+            "long."
         )
     return lines
 
@@ -94,9 +99,11 @@ def _last_start(every: list[tuple[float, float]]) -> float:
     return start
 
 
-def _times(value: float) -> str:
+def times_text(value: float) -> str:
+    """A ratio to two figures, or to whole numbers."""
     return f"{value:.2g}" if value < 9.95 else f"{value:.0f}"
 
 
-def _root(squared: float) -> str:
-    return f"{100.0 * math.sqrt(max(squared, 0.0)):.2f} %"
+def _clearly(larger: ErrorSplit, smaller: ErrorSplit) -> bool:
+    error = math.hypot(larger.bias_square_se, smaller.bias_square_se)
+    return larger.bias_square - smaller.bias_square > _CLEAR * error

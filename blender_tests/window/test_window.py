@@ -31,10 +31,29 @@ def test_every_panel_is_drawn(session):
 
 
 def test_the_buttons_work(session):
-    ran = dict(session["ran"])
-    assert {"add_material", "check_render"} <= set(ran)
+    ran = session["ran"]
+    expected = {"add_material", "apply_preset", "analyse", "check_farm", "check_render"}
+    assert expected | {"to_native", "to_microbounce"} <= set(ran)
     assert all(done == ["FINISHED"] for done in ran.values()), ran
-    assert session["node"] == ["Material Output", "Microbounce Conductor"]
+
+
+def test_presets_are_applied_by_the_button_and_by_typing(session):
+    states = session["states"]
+    assert "ShaderNodeGroup" in states["added"]["nodes"].values()
+    assert states["added"]["presets"] == []
+    assert states["preset"]["presets"] == ["conductor/gold"]
+    assert states["searched"]["presets"] == ["conductor/copper"]
+
+
+def test_conversion_is_taken_back_by_the_keyboard(session):
+    kinds = {
+        name: set(state["nodes"].values()) - {"ShaderNodeOutputMaterial"}
+        for name, state in session["states"].items()
+    }
+    assert kinds["to_native"] == {"ShaderNodeBsdfMetallic"}
+    assert kinds["to_microbounce"] == {"ShaderNodeGroup"}
+    assert kinds["undo1"] == kinds["to_native"]
+    assert kinds["undo2"] == kinds["checked"] == {"ShaderNodeGroup"}
 
 
 def test_eevee_shows_the_material_like_cycles_without_osl(session):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is missing from a sphere whose light ends after n bounces, by the oracle."""
+"""What is missing from a sphere whose light ends after n bounces, by the oracle: as a picture and
+as energy."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -37,10 +38,11 @@ _LOWEST_SUN = 0.02
 _SUN, _BACK = sphere.FRONT_SUN, sphere.BACK_SUN
 
 
-def rows() -> Iterator[dict]:
+def rows(measure: Callable[[Surface], tuple[float, ...]]) -> Iterator[dict]:
     """Measure the surfaces of each kind, distribution and model (and index, of glass) by alpha.
 
-    `after` has at each of ALPHAS what is missing after bounce 1, 2, ..., as left_out() returns it.
+    `after` has at each of ALPHAS what is missing after bounce 1, 2, ..., as `measure` returns it,
+    which is left_out() or energy_lost().
     """
     materials: list[tuple[str, float, Material]] = [
         ("CONDUCTOR", 0.0, Conductor()),
@@ -56,7 +58,7 @@ def rows() -> Iterator[dict]:
                     "distribution": distribution,
                     "model": number,
                     "ior": ior,
-                    "after": [left_out(surface) for surface in surfaces],
+                    "after": [measure(surface) for surface in surfaces],
                 }
 
 
@@ -74,8 +76,26 @@ def left_out(surface: Surface, walks: int = WALKS, seed: int = SEED) -> tuple[fl
         for sun, inside in ((_SUN, False), (None, False), (_BACK, False), (_BACK, True))
         if glass or sun is not _BACK
     ]
-    norms = np.max([missing(picture) for picture in pictures], axis=0)
-    return tuple(float(norm) for norm in norms[norms > SMALLEST])
+    return _down_to_smallest([missing(picture) for picture in pictures])
+
+
+def energy_lost(surface: Surface, walks: int = WALKS, seed: int = SEED) -> tuple[float, ...]:
+    """Return the energy that is missing after bounce 1, 2, ..., down to SMALLEST, over that of all
+    bounces, where facets absorb nothing.
+
+    It is that of all of a sphere's picture in a uniform world; of glass the most of that and of
+    what is seen from inside the solid.
+    """
+    sides = (False, True) if surface.material.transmits else (False,)
+    worlds = [light(surface, None, inside, walks, seed).mean(axis=(1, 2)) for inside in sides]
+    return _down_to_smallest(
+        [[world[k:].sum() / world.sum() for k in range(1, BOUNCES)] for world in worlds]
+    )
+
+
+def _down_to_smallest(parts: list[list[float]]) -> tuple[float, ...]:
+    most = np.max(parts, axis=0)
+    return tuple(float(part) for part in most[most > SMALLEST])
 
 
 def light(

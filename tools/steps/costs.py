@@ -1,52 +1,59 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a sample of the showcase costs with one material on all its bodies."""
+"""What a sample of a pixel costs that shows a material, in the scene of mixed materials."""
 
 from functools import partial
 
 import bpy
 
 from addon.core.kinds import KINDS
+from addon.core.step_errors import STEPS
 from addon.nodes.group import new_material
-from blender_tests.render import pictures
-from scenes import variants
+from addon.nodes.share import picture_shares
+from scenes import mixed
 from tools.timing import time_samples
 
-STEPS = ("Single", "Fitted", "Walk")
-ALPHAS = (0.04, 0.25, 0.64, 1.0)
+ALPHAS = (0.04, 0.25, 1.0)
 ROUNDS = 3
-SAMPLES = 24
-PERCENTAGE = 25  # of the showcase's width and height
+SAMPLES = 48
+SIZE = (125, 100)
 BASE = ("CONDUCTOR", "Single", 0.25)
+_EMPTY = ("EMPTY",)
 
 
-def rows() -> list[dict]:
-    """Time all kinds and steps at ALPHAS, over metal of alpha 0.25 in Single."""
-    pictures.open_scene("showcase")
-    scene = bpy.context.scene
-    scene.render.resolution_percentage = PERCENTAGE
-    metals = {metal.material for metal in variants.find_materials()}
-    slots = [
-        slot for thing in scene.objects for slot in thing.material_slots if slot.material in metals
-    ]
+def measure() -> tuple[list[dict], float]:
+    """Time all kinds and steps at ALPHAS, each on all spheres of the scene, over BASE.
 
-    def show(material: bpy.types.Material, step: str) -> None:
-        for slot in slots:
-            slot.material = material
-        variants.use_quality(variants.find_materials(), step)
+    Returns rows of costs, and the cost of a pixel that shows nothing but the world. The costs are
+    of what the spheres cover: what the world around them takes is subtracted.
+    """
+    scene = mixed.build(resolution=SIZE)
+    spheres = [thing for thing in scene.objects if thing.type == "MESH"]
 
-    switches = {}
+    def show(material: bpy.types.Material | None) -> None:
+        for sphere in spheres:
+            sphere.hide_render = material is None
+            if material is not None:
+                sphere.data.materials[0] = material
+
+    switches = {_EMPTY: partial(show, None)}
     for kind in KINDS:
         for alpha in ALPHAS:
-            material = new_material(kind, f"{kind.title()} {alpha}", Roughness=alpha**0.5)
             for step in STEPS:
-                switches[kind, step, alpha] = partial(show, material, step)
+                name = f"{kind.title()} {alpha} {step}"
+                made = new_material(kind, name, Roughness=alpha**0.5, Quality=step)
+                switches[kind, step, alpha] = partial(show, made)
+    switches[BASE]()
+    (covered,) = picture_shares(bpy.context).by_name.values()
     times = time_samples(scene, switches, samples=SAMPLES, rounds=ROUNDS)
-    return [
-        {
-            "kind": kind,
-            "step": step,
-            "costs": [times.ratio((kind, step, alpha), BASE) for alpha in ALPHAS],
-        }
+    empty = times.ratio(_EMPTY, BASE)
+    around = (1.0 - covered) * empty
+
+    def cost(*variant: object) -> float:
+        return (times.ratio(variant, BASE) - around) / (1.0 - around)
+
+    rows = [
+        {"kind": kind, "step": step, "costs": [cost(kind, step, alpha) for alpha in ALPHAS]}
         for kind in KINDS
         for step in STEPS
     ]
+    return rows, empty * covered / (1.0 - around)

@@ -4,11 +4,11 @@
 from collections import defaultdict
 from collections.abc import Callable
 
+from addon.core.step_errors import STEPS
 from blender_tests.render import pictures
 from blender_tests.render.pictures import WHITE, Widths
 from blender_tests.render.test_converged import CASES, Case
 
-STEPS = ("Single", "Fitted", "Walk")
 # Distributions and models as the references' names have them.
 ISOTROPIC, ANISOTROPIC = "isotropic", "anisotropic"
 METALS = [

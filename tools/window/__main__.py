@@ -13,10 +13,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from .blender import NoWindowError, find_blender, need_display
-from .session import ROOT, run_session
+from .session import NODES, PROPERTIES, ROOT, run_session
 
-# The pictures in docs/, by the editors that they show.
-_PICTURES = {"PROPERTIES": "panel.jpg", "ShaderNodeTree": "shader_editor.jpg"}
+# The pictures in docs/: at which moment of the session, and which editor.
+_PICTURES = {
+    "material_panel.jpg": ("searched", PROPERTIES),
+    "shader_editor.jpg": ("checked", NODES),
+}
 
 
 def main() -> int:
@@ -45,14 +48,13 @@ def _pictures() -> int:
     with TemporaryDirectory(prefix="microbounce_window_") as name:
         folder = Path(name)
         result = run_session(folder)
-        screen = folder / "screen.xwd"
-        if not (result.get("done") and screen.is_file()):
+        if result["errors"] or not (folder / "searched.xwd").is_file():
             reasons = result["errors"] or ["there is no Xvfb to take pictures of: install it"]
             print("No picture was taken:", *reasons, file=sys.stderr)
             return 1
-        for editor, picture in _PICTURES.items():
-            target = ROOT / "docs" / picture
-            save_part(screen, result["areas"][editor], target)
+        for name, (moment, editor) in _PICTURES.items():
+            target = ROOT / "docs" / name
+            save_part(folder / f"{moment}.xwd", result["areas"][moment][editor], target)
             print(f"{target.relative_to(ROOT)}: {target.stat().st_size / 1024:.0f} KiB")
     return 0
 

@@ -5,8 +5,7 @@ from collections.abc import Iterator
 
 import bpy
 
-# Editors, by the names of their types.
-NODES, PROPERTIES, VIEW = "ShaderNodeTree", "PROPERTIES", "VIEW_3D"
+from .session import NODES, VIEW
 
 # Seconds in which Blender draws what has changed.
 DRAW = 1.0

@@ -5,8 +5,6 @@ Arguments after `--`: a JSON file with "archive" (the extension's zip), "folder"
 "screen" (the file that is Xvfb's screen, "" where there is none); the JSON file for the result.
 """
 
-# ruff: noqa: E402 - the path comes before imports
-
 import faulthandler
 import json
 import shutil
@@ -19,7 +17,8 @@ import bpy
 
 sys.path.append(str(Path(__file__).resolve().parents[2]))
 from tools.window import editors
-from tools.window.editors import NODES, PROPERTIES, VIEW, area, drawn, in_area, window
+from tools.window.editors import area, drawn, in_area, window
+from tools.window.session import NODES, PROPERTIES, VIEW
 from tools.window.watch import watch_panels
 
 MODULE = "bl_ext.user_default.microbounce"

@@ -7,6 +7,9 @@ from pathlib import Path
 
 from .blender import run_in_window
 
+# Editors, by Blender's names of their types.
+NODES, PROPERTIES, VIEW = "ShaderNodeTree", "PROPERTIES", "VIEW_3D"
+
 ROOT = Path(__file__).resolve().parents[2]
 
 # Seconds. A session takes about a minute without a graphics card.

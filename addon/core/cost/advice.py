@@ -6,39 +6,65 @@ from collections.abc import Sequence
 
 from .results import Measured
 
-# Cycles' own closures with OSL off are no choice for a material that needs OSL.
-_CHOICES = ("step",)
-
 
 def recommendation(variants: Sequence[Measured], error: float) -> str:
     """Return which step reaches a relative error soonest, and how the others compare.
 
     Where none does, it names the one that comes nearest and its bias; where the steps were not
-    measured, it compares what was.
+    measured, it compares what was. What the noise leaves open is told as open, and no times are
+    compared that are none.
     """
-    steps = [v for v in variants if v.family in _CHOICES] or list(variants)
-    order = sorted(steps, key=lambda v: v.seconds_to(error))
-    best, target = order[0], _percent(error)
+    steps = [v for v in variants if v.family == "step"] or list(variants)
+    open_ones = [v for v in steps if v.split.doubtful(error)]
+    if not all(v.is_timed for v in steps):
+        best = min(steps, key=lambda v: v.split.bias)
+        return (
+            "The renders are too short to be timed: give more samples or a larger size. "
+            f"Nearest is {best.title}, {_bias(best)}."
+        )
+    best = min(steps, key=lambda v: v.seconds_to(error))
     if math.isinf(best.seconds_to(error)):
         best = min(steps, key=lambda v: v.split.bias)
-        text = f"No step comes within {target} here: {best.title} is nearest, {_bias(best)}"
-        return f"{text}{_doubt(steps, error)}."
-    parts = [f"{best.title} is within {target} soonest here, after {seconds(best, error)}"]
-    if len(order) > 1 and math.isfinite(order[1].seconds_to(error)):
-        times = order[1].seconds_to(error) / best.seconds_to(error)
-        faster = f"{times:.1f} times faster than" if times >= 1.05 else "as fast as"
-        parts.append(f"{faster} {order[1].title}")
-    never = [v for v in steps if math.isinf(v.seconds_to(error))]
+        parts = [f"no step comes within {_percent(error)} here", f"nearest is {best.title}"]
+        parts[-1] += f", {_bias(best)}"
+    else:
+        parts = [f"{best.title} is within {_percent(error)} soonest here, after "]
+        parts[0] += duration(best.seconds_to(error))
+        parts += _comparison(best, [v for v in steps if v not in (best, *open_ones)], error)
+    text = "; ".join(parts)
+    if best in open_ones:
+        text = f"as far as the noise shows, {text}"
+    sentence = f"{text[0].upper()}{text[1:]}."
+    if open_ones:
+        names = ", ".join(v.title for v in open_ones)
+        sentence += f" The noise leaves open {names}: give more samples or more rounds."
+    return sentence
+
+
+def _comparison(best: Measured, others: Sequence[Measured], error: float) -> list[str]:
+    """Return how much faster the best is than the next one, and which never come there."""
+    parts = []
+    reached = [v for v in others if math.isfinite(v.seconds_to(error))]
+    if reached:
+        second = min(reached, key=lambda v: v.seconds_to(error))
+        times = second.seconds_to(error) / best.seconds_to(error)
+        text = f"{times:.1f}" if times < 10.0 else f"{times:.0f}"
+        faster = f"{text} times faster than" if times >= 1.05 else "as fast as"
+        parts.append(f"{faster} {second.title}")
+    never = [v for v in others if v not in reached]
     if never:
-        named = ", ".join(f"{v.title} ({_bias(v)})" for v in never)
-        parts.append(f"never within it: {named}")
-    return f"{'; '.join(parts)}{_doubt(steps, error)}."
+        parts.append("never within it: " + ", ".join(f"{v.title} ({_bias(v)})" for v in never))
+    return parts
 
 
 def seconds(variant: Measured, error: float) -> str:
-    """Return the time of a variant to an error in words, "never" where it does not come."""
+    """Return the time of a variant to an error in words, "never" where it does not come.
+
+    A question mark follows where the noise leaves open whether it does.
+    """
     time = variant.seconds_to(error)
-    return duration(time) if math.isfinite(time) else "never"
+    text = duration(time) if math.isfinite(time) else "never"
+    return f"{text} ?" if variant.split.doubtful(error) else text
 
 
 def duration(time: float) -> str:
@@ -58,14 +84,6 @@ def bias_text(variant: Measured) -> str:
 
 def _bias(variant: Measured) -> str:
     return f"bias {bias_text(variant)}"
-
-
-def _doubt(steps: Sequence[Measured], error: float) -> str:
-    """Return a warning about the steps whose bias may as well lie on the other side of `error`."""
-    open_ones = [v.title for v in steps if v.split.doubtful(error)]
-    if not open_ones:
-        return ""
-    return f" (too much noise to tell for {', '.join(open_ones)}: give more samples or more rounds)"
 
 
 def _percent(part: float) -> str:

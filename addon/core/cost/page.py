@@ -64,7 +64,8 @@ of the time, bias stays. The dashed line is the target of {100 * setting.error:g
 <section><h2>Figures</h2><div class="scroll">{_table(report)}</div>
 <p class="hint">Errors are relative to the root mean square of the reference, over all pixels. Times
 are those of {setting.samples} samples, median of {setting.rounds} rounds, without the start of the
-render; Processor is the time of all threads together. Click a heading to sort.</p></section>
+render; Processor is the time of all threads together. A question mark: the noise leaves open
+whether the bias is below the target. Click a heading to sort.</p></section>
 <section><h2>Pictures</h2><div class="cards">
 <article class="reference"><h3>Reference</h3>{_figure(rgb_png(shrunk(reference, width)), "")}
 <p class="hint">{html.escape(setting.reference)}, {setting.reference_samples} samples, noise

@@ -197,4 +197,4 @@ def _checked(parameter: Parameter, value: object) -> None:
 
 def _check(right: bool, name: str, value: object, remedy: str) -> None:
     if not right:
-        raise PlanError(f"The {name} is {value}: give {remedy}")
+        raise PlanError(f"{name.capitalize()} cannot be {value}: give {remedy}")

@@ -14,6 +14,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 64, 190, 18, 46
 COLORS = (
     "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9",
     "#8c8c8c", "#6a51a3", "#a6761d", "#1b9e9e", "#b2182b", "#66a61e",
+    "#f4a6c0", "#4a6fe3", "#c7b42c", "#7f3b08",
 )  # fmt: skip
 
 
@@ -94,24 +95,25 @@ def draw_plot(report: Report) -> list[Line | Dot | Label]:
 
 def svg(steps: list[Line | Dot | Label]) -> str:
     """Return the drawing as an SVG element, its ink and grid in the page's own colours."""
-    parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="Error over time">']
+    box = f'viewBox="0 0 {WIDTH} {HEIGHT}" font-size="12"'
+    parts = [f'<svg {box} role="img" aria-label="Error over time">']
     for step in steps:
         if isinstance(step, Line):
             points = " ".join(f"{x:.1f},{y:.1f}" for x, y in step.points)
             dashes = ' stroke-dasharray="5 4"' if step.dashed else ""
             parts.append(
-                f'<polyline points="{points}" fill="none" stroke="{_paint(step.color)}" '
-                f'stroke-width="{step.width:g}"{dashes}/>'
+                f'<polyline points="{points}" fill="none" stroke-width="{step.width:g}"{dashes} '
+                f'style="stroke:{_paint(step.color)}"/>'
             )
         elif isinstance(step, Dot):
             parts.append(
                 f'<circle cx="{step.x:.1f}" cy="{step.y:.1f}" r="{step.radius:g}" '
-                f'fill="{_paint(step.color)}"/>'
+                f'style="fill:{_paint(step.color)}"/>'
             )
         else:
             parts.append(
                 f'<text x="{step.x:.1f}" y="{step.y:.1f}" text-anchor="{step.anchor}" '
-                f'fill="{_paint(step.color)}">{html.escape(step.text)}</text>'
+                f'style="fill:{_paint(step.color)}">{html.escape(step.text)}</text>'
             )
     return "\n".join([*parts, "</svg>"])
 

@@ -7,6 +7,9 @@ from dataclasses import asdict, dataclass, field
 
 from .statistics import ErrorSplit, error_after, samples_to_error
 
+# Seconds of a sample that stand for those too short to be told from the start of a render.
+TOO_SHORT = 1e-7
+
 
 @dataclass(frozen=True)
 class Cost:
@@ -35,6 +38,11 @@ class Measured:
     cost: Cost
     split: ErrorSplit
     flip: float
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether all rounds took long enough for their times to say something."""
+        return min(self.cost.wall) > TOO_SHORT
 
     @property
     def per_sample(self) -> float:
@@ -142,6 +150,7 @@ class Report:
             "bias_resolution": variant.split.resolution,
             "error": variant.error,
             "seconds_to_error": reached if math.isfinite(reached) else None,
+            "seconds_to_error_open": variant.split.doubtful(self.setting.error),
             "error_at_equal_time": variant.error_at(self.equal_time),
             "flip": variant.flip,
             "memory_mb": variant.cost.memory,

@@ -59,7 +59,7 @@ def cells(report: Report, variant: Measured) -> tuple[str, ...]:
         duration(row["processor_seconds"]),
         duration(row["start_seconds"]),
         f"{row['flip']:.3f}",
-        "not measured" if memory is None else f"{memory:.0f} MB",
+        "not measured" if memory is None else f"{memory:.{0 if memory >= 10.0 else 1}f} MB",
     )
 
 

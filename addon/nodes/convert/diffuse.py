@@ -41,8 +41,8 @@ def matte_roughness_to_ours(native: State, name: str, made: Translation) -> None
 
 
 def nearest_roughness(sigma: float) -> float:
-    """Return our Roughness that looks nearest to Oren and Nayar's `sigma`, from 0 to 1."""
-    return _FACTOR * sigma**_POWER
+    """Return our Roughness that looks nearest to Oren and Nayar's `sigma`, cut to 0 to 1."""
+    return _FACTOR * max(0.0, min(1.0, sigma)) ** _POWER
 
 
 def matte_roughness_to_native(ours: State, name: str, made: Translation) -> None:

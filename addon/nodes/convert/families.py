@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which native nodes have a counterpart of ours, and the nearest native one of each kind."""
 
+from dataclasses import replace
+
 from ...core.kinds import KINDS
 from ..sockets import socket_value
 from .diffuse import DIFFUSE
@@ -41,7 +43,17 @@ def translated_to_native(kind: str, ours: State, was: State | None) -> Translati
     type. Raises NotConvertibleError where that type cannot show it.
     """
     family = NEAREST[kind] if was is None else FAMILIES[was.idname]
-    return family.back(ours, was)
+    return family.back(_within_limits(kind, ours), was)
+
+
+def _within_limits(kind: str, ours: State) -> State:
+    """Return the state that the shader sees: a script may set what the sliders do not reach."""
+    limits = {p.label: p.legal for p in KINDS[kind].parameters}
+    values = {
+        name: _cut(value, *limits[name]) if name in limits else value
+        for name, value in ours.values.items()
+    }
+    return replace(ours, values=values)
 
 
 def _keep_within_limits(native: State, made: Translation) -> None:

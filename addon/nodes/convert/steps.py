@@ -50,6 +50,8 @@ def obstacle(material: bpy.types.Material) -> str:
         return "It is linked from a library: make it local, or convert it in its own file"
     if material.override_library:
         return "It is a library override, whose nodes cannot change: make it local"
+    if material.is_grease_pencil:
+        return "It is a grease pencil material, which has no surface: choose another"
     tree = material.node_tree
     if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
         return "It has no nodes: switch Use Nodes on"

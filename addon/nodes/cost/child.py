@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The script that the other Blender runs: measures the job in the file that is its last argument.
 
-Its errors are the last line on standard error.
+Its errors are the last line on standard error. It ends when its standard input closes, so that it
+does not outlive the Blender that started it.
 """
 
 import importlib.util
 import os
 import sys
+import threading
 from pathlib import Path
 
 _NAME = "microbounce_of_the_cost"
@@ -23,7 +25,13 @@ def _main(job: str) -> None:
     importlib.import_module(f"{_NAME}.nodes.cost.measure").measure_job(Path(job))
 
 
+def _end_with_input() -> None:
+    sys.stdin.buffer.read()
+    os._exit(1)
+
+
 if __name__ == "__main__":
+    threading.Thread(target=_end_with_input, daemon=True).start()
     status = 1
     try:
         import bpy  # noqa: F401 - Blender as a Python module starts here

@@ -6,7 +6,6 @@ import json
 import os
 import platform
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -22,7 +21,7 @@ from ...core.cost.plan import (
     reference_variant,
 )
 from ...core.cost.png import to_srgb
-from ...core.cost.results import Cost, Measured, Report, Setting
+from ...core.cost.results import TOO_SHORT, Cost, Measured, Report, Setting
 from ...core.cost.statistics import reference_noise, split_error
 from ...core.cost.tables import to_csv, to_json, to_text
 from .plot_picture import plot_png
@@ -39,8 +38,6 @@ _FILES = {
     "plot": "cost.png",
     "json": "cost.json",
 }
-# No clock tells shorter times of a sample.
-_SHORTEST = 1e-7
 
 
 def measure_job(path: Path) -> None:
@@ -57,22 +54,22 @@ def measure_job(path: Path) -> None:
     references = load_reference(job["cache"])
     kept = references is not None
     notes = list(job["notes"])
-    total = len(variants) * (1 + options.rounds * (samples + 1)) + (0 if kept else 2 * half)
-    tell = _teller(progress, total)
+    total = 1 + len(variants) * options.rounds * (samples + 1) + (0 if kept else 2 * half)
+    tell = _Teller(progress, total)
 
     if references is None:
         renderer.show(reference_variant(options.reference))
         references = []
         for number, seed in enumerate(_REFERENCE_SEEDS, 1):
-            tell(0, f"Reference, {number} of 2")
-            references.append(renderer.render(half, seed).picture)
-            tell(half, f"Reference, {number} of 2")
+            tell.start(f"Reference, {number} of 2")
+            references.append(renderer.render(half, seed, tell.during).picture)
+            tell.finish(half)
         if job["cache"] and not store_reference(job["cache"], references):
             notes.append(f"The reference is not kept: {job['cache']} cannot be written.")
     # After the reference: a render border that shows nothing is told before the long part.
     _check_light(references)
     renders = _render_rounds(renderer, variants, options.rounds, tell)
-    tell(0, "Writing the report")
+    tell.start("Writing the report")
     exposure = scene.view_settings.exposure
     shown_reference = to_srgb(0.5 * (references[0] + references[1]), exposure)
     measured, pictures = [], {}
@@ -82,7 +79,7 @@ def measure_job(path: Path) -> None:
         )
         measured.append(result)
         pictures[variant.key] = shown
-    quick = [m.title for m in measured if min(m.cost.wall) <= _SHORTEST]
+    quick = [m.title for m in measured if not m.is_timed]
     if quick:
         notes.append(f"Too short to be timed: {', '.join(quick)}. Give more samples.")
     height, width = references[0].shape[:2]
@@ -108,25 +105,25 @@ def measure_job(path: Path) -> None:
 
 
 def _render_rounds(
-    renderer: Renderer, variants: list[Variant], rounds: int, tell: Callable[[int, str], None]
+    renderer: Renderer, variants: list[Variant], rounds: int, tell: "_Teller"
 ) -> dict[str, list[tuple[Rendered, Rendered]]]:
     """Return by key, for each round, a render of one sample and one of all samples.
 
     The rounds go through all variants in turn, so that a load on the machine falls on all of them.
     """
-    for variant in variants:
-        tell(0, f"{variant.title}, warm-up")
-        renderer.show(variant)
-        renderer.render(1, 0)
-        tell(1, f"{variant.title}, warm-up")
+    tell.start("Warm-up")
+    renderer.show(variants[0])
+    renderer.render(1, 0)
+    tell.finish(1)
     renders: dict[str, list[tuple[Rendered, Rendered]]] = {v.key: [] for v in variants}
     for seed in range(1, rounds + 1):
         for variant in variants:
-            tell(0, f"{variant.title}, round {seed} of {rounds}")
+            tell.start(f"{variant.title}, round {seed} of {rounds}")
             renderer.show(variant)
-            pair = renderer.render(1, seed), renderer.render(renderer.samples, seed)
-            renders[variant.key].append(pair)
-            tell(renderer.samples + 1, f"{variant.title}, round {seed} of {rounds}")
+            one = renderer.render(1, seed)
+            full = renderer.render(renderer.samples, seed, tell.during)
+            renders[variant.key].append((one, full))
+            tell.finish(renderer.samples + 1)
     return renders
 
 
@@ -144,9 +141,9 @@ def _evaluated(
     flipped = flip(shown_reference, shown)
     more = samples - 1
     cost = Cost(
-        wall=tuple(max(_SHORTEST, (full.wall - one.wall) / more) for one, full in renders),
+        wall=tuple(max(TOO_SHORT, (full.wall - one.wall) / more) for one, full in renders),
         processor=tuple(
-            max(_SHORTEST, (full.processor - one.processor) / more) for one, full in renders
+            max(TOO_SHORT, (full.processor - one.processor) / more) for one, full in renders
         ),
         start=tuple(max(0.0, one.wall - (full.wall - one.wall) / more) for one, full in renders),
         memory=max(full.memory for _, full in renders) or _process_peak(),
@@ -190,21 +187,32 @@ def _check_light(references: "list[numpy.ndarray]") -> None:
         raise RuntimeError("The reference is black: check camera, lights and render border")
 
 
-def _teller(path: Path, total: int) -> Callable[[int, str], None]:
-    """Return what adds samples to those that are done and writes `path`, a line at a time."""
-    done = 0
-    begin = time.monotonic()
+class _Teller:
+    """Writes how far it is to a file, a line at a time."""
 
-    def tell(samples: int, text: str) -> None:
-        nonlocal done
-        done += samples
-        spent = time.monotonic() - begin
-        left = spent * (total - done) / done if done else None
-        line = json.dumps({"part": done / total, "text": text, "left": left})
-        with open(path, "a", encoding="utf-8") as stream:
+    def __init__(self, path: Path, total: int) -> None:
+        """Begin; `total` is the number of samples that there will be."""
+        self._path, self._total = path, total
+        self._begin, self._done, self._text = time.monotonic(), 0, ""
+
+    def start(self, text: str) -> None:
+        """Tell what comes next."""
+        self._text = text
+        self.during(0)
+
+    def during(self, samples: int) -> None:
+        """Tell how many samples of it are done."""
+        done = self._done + samples
+        spent = time.monotonic() - self._begin
+        left = spent * (self._total - done) / done if done else None
+        line = json.dumps({"part": done / self._total, "text": self._text, "left": left})
+        with open(self._path, "a", encoding="utf-8") as stream:
             print(line, file=stream)
 
-    return tell
+    def finish(self, samples: int) -> None:
+        """Tell that all of its samples are done."""
+        self._done += samples
+        self.during(0)
 
 
 def _hardware(scene: bpy.types.Scene) -> dict[str, str]:

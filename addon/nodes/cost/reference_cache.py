@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Keeps references on disk, each by a digest of all that it depends on."""
 
+import contextlib
 import hashlib
 import os
 import shutil
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -38,13 +40,16 @@ def clear_cache() -> int:
     return count
 
 
-def cache_file(scene: bpy.types.Scene, layer: str, options: Options) -> str:
+def cache_file(
+    scene: bpy.types.Scene, layer: str, options: Options, unchanged: bool = False
+) -> str:
     """Return where the reference of the scene is kept, "" where it must not be.
 
-    That is a file that was never saved or has changes that are not: nothing tells what they are.
-    (In the background Blender calls every file changed; there it counts as it was opened.)
+    That is a file that was never saved or may have changes that are not: nothing tells what they
+    are. In the background Blender does not know; there the caller says that it is `unchanged`.
     """
-    if not bpy.data.filepath or (bpy.data.is_dirty and not bpy.app.background):
+    dirty = bpy.data.is_dirty or bpy.app.background
+    if not bpy.data.filepath or (dirty and not unchanged):
         return ""
     digest = hashlib.sha256()
     for part in _parts(scene, layer, options):
@@ -60,11 +65,15 @@ def load_reference(path: str) -> "list[numpy.ndarray] | None":
         return None
     try:
         with np.load(path, allow_pickle=False) as kept:
-            pictures = [kept["first"], kept["second"]]
-    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile):
+            first, second = kept["first"], kept["second"]
+    # TypeError is for a file of one array.
+    except (OSError, KeyError, TypeError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
         return None
-    os.utime(path)
-    return pictures
+    if first.ndim != 3 or first.shape != second.shape:
+        return None
+    with contextlib.suppress(OSError):  # of a folder that only others may write
+        os.utime(path)  # the oldest are removed first
+    return [first, second]
 
 
 def store_reference(path: str, pictures: "list[numpy.ndarray]") -> bool:
@@ -94,12 +103,7 @@ def _parts(scene: bpy.types.Scene, layer: str, options: Options) -> Iterator:
     yield scene.frame_current, scene.frame_subframe, scene.cycles.samples
     yield options.samples, options.reference, options.reference_samples
     yield options.percentage, options.region, reference_variant(options.reference)
-    for path in (bpy.data.filepath, *_outer_files()):
-        try:
-            state = os.stat(path)
-            yield path, state.st_mtime_ns, state.st_size
-        except OSError:
-            yield path, "missing"
+    yield from _files()
     for part in (scene.render, scene.cycles, scene.view_layers[layer].cycles):
         yield from _values(part)
     for kind in (bpy.data.worlds, bpy.data.lights, bpy.data.cameras, bpy.data.materials):
@@ -114,10 +118,35 @@ def _parts(scene: bpy.types.Scene, layer: str, options: Options) -> Iterator:
         yield [slot.material.name_full if slot.material else "" for slot in thing.material_slots]
 
 
-def _outer_files() -> Iterator[str]:
-    for data in (*bpy.data.libraries, *bpy.data.images):
-        if data.filepath:
-            yield bpy.path.abspath(data.filepath, library=data.library)
+def _files() -> Iterator:
+    """Yield the states of all files that the scene is read from.
+
+    Beside a texture or a cache all files of its folder count: it may be one of a sequence.
+    """
+    blends, folders = {bpy.data.filepath}, set()
+    for path in bpy.utils.blend_paths(absolute=True):
+        if path.endswith(".blend"):
+            blends.add(path)
+        else:
+            folders.add(os.path.dirname(path))
+    for path in sorted(blends):
+        yield path, *_state(path)
+    for folder in sorted(folders):
+        try:
+            names = sorted(entry.name for entry in os.scandir(folder) if entry.is_file())
+        except OSError:
+            names = []
+        for name in names:
+            path = os.path.join(folder, name)
+            yield path, *_state(path)
+
+
+def _state(path: str) -> tuple:
+    try:
+        state = os.stat(path)
+    except OSError:
+        return ("missing",)
+    return state.st_mtime_ns, state.st_size
 
 
 def _tree(tree: bpy.types.NodeTree) -> Iterator:

@@ -6,7 +6,7 @@ It changes the scene and its materials for good: it is for a copy of the user's 
 
 import re
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +21,7 @@ from ..variants import Placed, placed_in
 # "Mem:0.50M, Peak:1.25M" up to Blender 4.5, "Mem: 11M" in Blender 5.
 _PEAK = re.compile(r"Peak:\s*([\d.]+)([KMG])")
 _MEMORY = re.compile(r"Mem:\s*([\d.]+)([KMG])")
+_SAMPLES = re.compile(r"Sample (\d+)/")
 _MEGABYTES = {"K": 1 / 1024, "M": 1.0, "G": 1024.0}
 
 
@@ -66,15 +67,20 @@ class Renderer:
                 placed.show_ours()
         self._scene.cycles.shading_system = variant.osl
 
-    def render(self, samples: int, seed: int) -> Rendered:
-        """Render; raises RuntimeError where no picture comes out."""
+    def render(
+        self, samples: int, seed: int, tell: Callable[[int], None] = lambda done: None
+    ) -> Rendered:
+        """Render; `tell` gets the number of samples that are done, when Cycles tells it.
+
+        Raises RuntimeError where no picture comes out.
+        """
         cycles = self._scene.cycles
         cycles.seed = seed
         # Cycles puts the first sample of every seed into the middle of the pixel, which is a bias
         # of 1 / samples: it is left out.
         cycles.samples, cycles.sample_subset_length = samples + 1, samples
         self._path.unlink(missing_ok=True)
-        with _told_memory() as told:
+        with _listening(tell) as told:
             wall, processor = time.perf_counter(), time.process_time()
             bpy.ops.render.render(write_still=True, scene=self._scene.name)
             processor = time.process_time() - processor
@@ -113,7 +119,10 @@ def placed_nodes() -> list[Placed]:
 
 
 def _prepare(scene: bpy.types.Scene, layer: str, options: Options) -> None:
-    """Switch off what biases pixels, changes the number of samples, or draws over the picture."""
+    """Switch off what biases pixels, changes the number of samples, or draws over the picture.
+
+    Clamping stays as the user has it: without it a few bright pixels may hide all else.
+    """
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
     for view_layer in scene.view_layers:
@@ -132,7 +141,6 @@ def _prepare(scene: bpy.types.Scene, layer: str, options: Options) -> None:
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_animated_seed = False
     cycles.use_guiding = False
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.light_sampling_threshold = 0.0
     cycles.time_limit = 0.0
     cycles.use_layer_samples = "IGNORE"
@@ -150,14 +158,17 @@ def _prepare_output(render: bpy.types.RenderSettings, path: Path) -> None:
 
 
 @contextmanager
-def _told_memory() -> Iterator[list[float]]:
-    """Yield a list that takes the megabytes which Cycles tells of while it renders."""
+def _listening(tell: Callable[[int], None]) -> Iterator[list[float]]:
+    """Hand on the samples which Cycles tells of; yield a list that takes the megabytes."""
     told: list[float] = []
 
     def listen(text: str) -> None:
         found = _PEAK.search(text) or _MEMORY.search(text)
         if found:
             told.append(float(found[1]) * _MEGABYTES[found[2]])
+        samples = _SAMPLES.search(text)
+        if samples:
+            tell(int(samples[1]))
 
     bpy.app.handlers.render_stats.append(listen)
     try:

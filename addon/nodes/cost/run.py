@@ -4,61 +4,50 @@
 import json
 import os
 import shutil
-import subprocess
-import sys
 import tempfile
-import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 
 from ...core.cost.plan import Options
 from ...core.lamps import exact_warning
-from ...ops.exact import enabled_lamps
+from ...core.run import Progress, RunError, wait_for
+from ..child_blender import ChildBlender
+from ..exact import enabled_lamps
 from ..script import osl_compiler_available
 from .reference_cache import cache_file
 from .renderer import placed_nodes
 
 OUTPUT = "//microbounce_cost"
 IMAGE = "Microbounce Cost"
-_POLL_SECONDS = 0.1
 
 
-class CostError(RuntimeError):
+class CostError(RunError):
     """The measurement cannot be made or failed; the message says why and what to do."""
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a measurement is.
-
-    part -- from 0 to 1
-    text -- what is rendered
-    left -- seconds that remain, None where nothing tells yet
-    """
-
-    part: float = 0.0
-    text: str = "Starting"
-    left: float | None = None
 
 
 class CostRun:
     """A measurement that is under way; close() it whatever happens, or use it with `with`."""
 
     def __init__(
-        self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer, options: Options, output: str
+        self,
+        scene: bpy.types.Scene,
+        layer: bpy.types.ViewLayer,
+        options: Options,
+        output: str,
+        unchanged: bool = False,
     ) -> None:
         """Check everything, save a copy of the file and start.
 
-        `output` is the folder for the reports, where "//" means beside the file. Raises CostError.
+        `output` is the folder for the reports, where "//" means beside the file. `unchanged` says
+        that the scene is as it is in the file, also where Blender does not know. Raises CostError.
         """
         check_scene(scene)
         folder = output_folder(output)
-        kept = cache_file(scene, layer.name, options)
+        kept = cache_file(scene, layer.name, options, unchanged)
         notes = _notes(scene, layer, options, kept)
-        self._process: subprocess.Popen | None = None
+        self._child: ChildBlender | None = None
         try:
             self._folder = Path(tempfile.mkdtemp(prefix="microbounce_cost_"))
         except OSError as error:
@@ -89,10 +78,9 @@ class CostRun:
         """End it, if it has not ended."""
         self.close()
 
-    @property
-    def running(self) -> bool:
-        """Whether the other Blender is at work."""
-        return self._process is not None and self._process.poll() is None
+    def advance(self) -> bool:
+        """Return whether the other Blender is at work."""
+        return self._child.running
 
     def progress(self) -> Progress:
         """Return how far it is."""
@@ -107,46 +95,25 @@ class CostRun:
 
         Raises CostError where it failed.
         """
-        if self._process.returncode != 0:
-            raise CostError(f"The measurement failed. {self._last_error()}")
+        reason = self._child.failure()
+        if reason:
+            raise CostError(f"The measurement failed: {reason}")
         return json.loads(self._report.read_text("utf-8"))
 
     def close(self) -> None:
         """End the other Blender, if it runs, and remove the temporary files."""
-        if self.running:
-            self._process.terminate()
-            try:
-                self._process.wait(5.0)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
+        if self._child is not None:
+            self._child.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _start(self, job: dict[str, object]) -> None:
         path = self._folder / "job.json"
         path.write_text(json.dumps(job), "utf-8")
-        script = str(Path(__file__).with_name("child.py"))
-        if bpy.app.binary_path:
-            command = [bpy.app.binary_path, "--background", "--factory-startup", "--python", script]
-        else:  # Blender as a Python module; -P keeps this folder from hiding Python's own modules
-            command = [sys.executable, "-P", script]
-        resources = self._folder / "user"
-        resources.mkdir()
-        with open(self._folder / "log", "wb") as log, open(self._folder / "errors", "wb") as errors:
-            self._process = subprocess.Popen(
-                [*command, "--", str(path)],
-                # An empty folder for user files: neither preferences nor installed extensions.
-                env=os.environ | {"BLENDER_USER_RESOURCES": str(resources)},
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=errors,
-                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-            )
-
-    def _last_error(self) -> str:
-        text = (self._folder / "errors").read_text("utf-8", errors="replace")
-        lines = [line for line in text.splitlines() if line.strip()]
-        return lines[-1] if lines else f"It left with exit code {self._process.returncode}"
+        script = Path(__file__).with_name("child.py")
+        try:
+            self._child = ChildBlender(script, [str(path)], self._folder / "user")
+        except OSError as error:
+            raise CostError(f"The other Blender does not start: {error}") from error
 
 
 def measure(
@@ -155,17 +122,14 @@ def measure(
     options: Options,
     output: str,
     tell: Callable[[Progress], None] = lambda progress: None,
+    unchanged: bool = False,
 ) -> dict[str, object]:
-    """Measure and wait for it; return the report. `tell` gets each new state. Raises CostError."""
-    with CostRun(scene, layer, options, output) as run:
-        told = None
-        while run.running:
-            progress = run.progress()
-            if progress != told:
-                tell(progress)
-                told = progress
-            time.sleep(_POLL_SECONDS)
-        return run.result()
+    """Measure and wait for it; return the report.
+
+    `tell` gets each new state; the rest is as CostRun() has it. Raises CostError.
+    """
+    with CostRun(scene, layer, options, output, unchanged) as run:
+        return wait_for(run, tell)
 
 
 def check_scene(scene: bpy.types.Scene) -> None:
@@ -202,11 +166,15 @@ def output_folder(output: str) -> Path:
 
 
 def load_plot(report: dict[str, object]) -> bpy.types.Image:
-    """Show the plot of a report as the image IMAGE, which is packed into the file."""
-    image = bpy.data.images.get(IMAGE)
-    if image is not None:
-        bpy.data.images.remove(image)
+    """Show the plot of a report as the image IMAGE, and return it.
+
+    It is packed, but Blender saves it with the file only where something uses it.
+    """
+    before = bpy.data.images.get(IMAGE)
     image = bpy.data.images.load(report["files"]["plot"])
+    if before is not None:
+        before.user_remap(image)  # an editor that shows it goes on to
+        bpy.data.images.remove(before)
     image.name = IMAGE
     image.pack()
     return image
@@ -217,9 +185,15 @@ def _notes(
 ) -> tuple[str, ...]:
     """Return what is to know about a measurement. Raises CostError where it has no reference."""
     notes = [
-        "Denoiser, adaptive sampling, clamping, path guiding and light threshold were off; "
-        "rendered on the processor, in a copy of the file."
+        "Denoiser, adaptive sampling, path guiding, light threshold, compositor and sequencer "
+        "were off; rendered on the processor, in a copy of the file."
     ]
+    direct, indirect = scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_indirect
+    if direct or indirect:
+        notes.append(
+            f"All pictures, the reference too, are clamped as the scene is: direct {direct:g}, "
+            f"indirect {indirect:g} (0 is off)."
+        )
     missed = exact_warning(enabled_lamps(layer))
     if missed and options.reference == "EXACT":
         raise CostError(f"Exact is no reference here: take Walk. {missed}")
@@ -228,7 +202,7 @@ def _notes(
     if not scene.cycles.shading_system:
         notes.append("Open Shading Language is off in the scene; in the copy it was on.")
     if not kept:
-        notes.append("The reference was not kept, since the file has unsaved changes.")
+        notes.append("The reference was not kept, since the file may have unsaved changes.")
     return tuple(notes)
 
 

@@ -7,7 +7,13 @@ import bpy
 
 from ...core.finding import Finding
 from ...core.osl_state import osl_state
-from .resources import image_findings, library_findings, script_findings
+from .resources import (
+    image_findings,
+    library_findings,
+    node_file_findings,
+    other_file_findings,
+    script_findings,
+)
 from .shaders import shader_findings
 from .usage import Use, material_uses
 
@@ -27,7 +33,8 @@ def farm_findings(scene: bpy.types.Scene) -> list[Finding]:
             finding if needed else replace(finding, level="note")
             for finding in shader_findings(group)
         ]
-    return found + library_findings(used) + image_findings(used) + script_findings(used)
+    found += library_findings(used) + image_findings(used) + script_findings(used)
+    return found + (node_file_findings(used) + other_file_findings(used) if used else [])
 
 
 def scene_findings(scene: bpy.types.Scene) -> list[Finding]:

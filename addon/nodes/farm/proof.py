@@ -5,18 +5,16 @@ Two Blenders of their own render the file small: one with the extension, which c
 anew, and one with the file alone. The pictures have to be the same.
 """
 
-import os
-import subprocess
-import sys
+import shutil
 import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import bpy
-
 from ...core.finding import Finding
+from ...core.run import Progress, RunError, wait_for
+from ..child_blender import ChildBlender
 
 # Of the picture's light. The same shader gives the same bits, but where Blender 4.5 sums smooth
 # normals in an order that changes from run to run: a last bit of these moves some random walks.
@@ -24,7 +22,7 @@ TOLERANCE = 0.02
 TIME_LIMIT = 300.0  # seconds, of each render
 
 
-class ProofError(RuntimeError):
+class ProofError(RunError):
     """The file could not be rendered; the message says in which Blender and why."""
 
 
@@ -64,69 +62,106 @@ class Proof:
         return [Finding("error", subject, message, "Mend the other findings, and save again.")]
 
 
-def prove(
-    path: Path, time_limit: float = TIME_LIMIT, tell: Callable[[str], None] = lambda text: None
-) -> Proof:
-    """Render the saved file `path` with and without the extension, and compare.
+class ProofRun:
+    """A proof that is under way; close() it whatever happens, or use it with `with`.
 
-    The open file is left alone. `tell` gets a line before each render, which may take `time_limit`
-    seconds. Raises ProofError where one does not come about.
+    The open file is left alone.
     """
-    import numpy
 
-    extension = str(Path(__file__).resolve().parents[2])
-    start = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="microbounce_") as folder:
-        tell("Rendering with the extension, its shaders compiled anew (1 of 2)")
-        ours = _rendered(path, Path(folder, "with"), extension, time_limit)
-        tell("Rendering without the extension (2 of 2)")
-        alone = _rendered(path, Path(folder, "without"), "", time_limit)
-        ours, alone = (numpy.fromfile(file, dtype=numpy.float32) for file in (ours, alone))
-    ours, alone = (values.reshape(-1, 4)[:, :3].astype(numpy.float64) for values in (ours, alone))
-    brightness = float(ours.mean())
-    distance = float(numpy.abs(ours - alone).mean())
-    difference = distance / brightness if brightness > 0.0 else distance
-    return Proof(difference, brightness, time.monotonic() - start)
+    def __init__(self, path: Path, time_limit: float = TIME_LIMIT) -> None:
+        """Begin to prove the saved file `path`; each render may take `time_limit` seconds.
 
+        Raises ProofError where none can begin.
+        """
+        extension = str(Path(__file__).resolve().parents[2])
+        self._path, self._limit = path, time_limit
+        self._begin = time.monotonic()
+        try:
+            self._folder = Path(tempfile.mkdtemp(prefix="microbounce_"))
+        except OSError as error:
+            raise ProofError(f"No folder for temporary files: {error}. Make room") from error
+        self._waiting = [("with the extension", extension), ("without the extension", "")]
+        self._child: ChildBlender | None = None
+        try:
+            self._start_next()
+        except BaseException:
+            self.close()
+            raise
 
-def _rendered(path: Path, target: Path, extension: str, time_limit: float) -> Path:
-    script = str(Path(__file__).with_name("child.py"))
-    if bpy.app.binary_path:
-        command = [bpy.app.binary_path, "--background", "--factory-startup", "--python", script]
-    else:  # Blender as a Python module; -P keeps this folder from hiding Python's own modules
-        command = [sys.executable, "-P", script]
-    who = "with the extension" if extension else "without the extension"
-    resources = target.with_name(f"{target.name}_user")
-    resources.mkdir()
-    try:
-        done = subprocess.run(
-            [*command, "--", str(path), str(target), extension],
-            env=_environment(resources),
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=time_limit,
-            check=False,
+    def __enter__(self) -> "ProofRun":
+        """Return itself."""
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """End it, if it has not ended."""
+        self.close()
+
+    def advance(self) -> bool:
+        """Start the second render once the first has ended; return whether one is under way.
+
+        Raises ProofError where one fails or takes too long.
+        """
+        if self._child.running:
+            if time.monotonic() - self._child_begin > self._limit:
+                raise ProofError(
+                    f"The render {self._who} took longer than {self._limit:g} seconds: allow "
+                    "more, or hide what is heavy"
+                )
+            return True
+        reason = self._child.failure()
+        if reason:
+            raise ProofError(f"The render {self._who} failed: {reason}")
+        if not self._waiting:
+            return False
+        self._start_next()
+        return True
+
+    def progress(self) -> Progress:
+        """Return how far it is."""
+        number = 2 - len(self._waiting)
+        return Progress((number - 1) / 2, f"Rendering {self._who} ({number} of 2)")
+
+    def result(self) -> Proof:
+        """Compare the pictures, once nothing is under way."""
+        import numpy
+
+        ours, alone = (
+            numpy.fromfile(target, dtype=numpy.float32).reshape(-1, 4)[:, :3].astype(numpy.float64)
+            for target in (self._folder / "1", self._folder / "2")
         )
-    except subprocess.TimeoutExpired as error:
-        raise ProofError(
-            f"The render {who} took longer than {time_limit:g} seconds: allow more, or hide "
-            "what is heavy"
-        ) from error
-    except OSError as error:
-        raise ProofError(f"The Blender {who} does not start: {error}") from error
-    if done.returncode != 0 or not target.is_file():
-        lines = [line for line in done.stderr.splitlines() if line.strip()]
-        reason = lines[-1].strip() if lines else f"it left with exit code {done.returncode}"
-        raise ProofError(f"The render {who} failed: {reason}")
-    return target
+        brightness = float(ours.mean())
+        distance = float(numpy.abs(ours - alone).mean())
+        difference = distance / brightness if brightness > 0.0 else distance
+        return Proof(difference, brightness, time.monotonic() - self._begin)
+
+    def close(self) -> None:
+        """End what is under way, and remove the temporary files."""
+        if self._child is not None:
+            self._child.close()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _start_next(self) -> None:
+        if self._child is not None:
+            self._child.close()
+        number = 3 - len(self._waiting)
+        self._who, extension = self._waiting.pop(0)
+        self._child_begin = time.monotonic()
+        arguments = [str(self._path), str(self._folder / str(number)), extension]
+        script = Path(__file__).with_name("child.py")
+        try:
+            self._child = ChildBlender(script, arguments, self._folder / f"user_{number}")
+        except OSError as error:
+            raise ProofError(f"The Blender {self._who} does not start: {error}") from error
 
 
-def _environment(resources: Path) -> dict[str, str]:
-    """Return this process's variables, but with an empty folder for all of Blender's user files.
+def prove(
+    path: Path,
+    time_limit: float = TIME_LIMIT,
+    tell: Callable[[Progress], None] = lambda progress: None,
+) -> Proof:
+    """Render the saved file `path` with and without the extension, wait, and compare.
 
-    So there are neither preferences nor installed extensions.
+    `tell` gets each new state; the rest is as ProofRun() has it. Raises ProofError.
     """
-    kept = {name: text for name, text in os.environ.items() if not name.startswith("BLENDER_USER_")}
-    return kept | {"BLENDER_USER_RESOURCES": str(resources)}
+    with ProofRun(path, time_limit) as run:
+        return wait_for(run, tell)

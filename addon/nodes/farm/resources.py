@@ -9,6 +9,10 @@ import bpy
 from ...core.finding import Finding
 from .usage import Use
 
+# A big scene has hundreds.
+_MOST_LISTED = 5
+# Kinds of data-blocks whose content may be a file.
+_WITH_FILES = ("images", "movieclips", "sounds", "fonts", "volumes", "cache_files")
 _FILE_SOURCES = ("FILE", "SEQUENCE", "TILED", "MOVIE")
 
 
@@ -26,7 +30,7 @@ def image_findings(uses: Iterable[Use]) -> list[Finding]:
         remedy = "Pack it: File > External Data."
         if image.is_dirty:
             message = "It has been painted on and not saved."
-        elif image.packed_file or image.packed_files or image.source not in _FILE_SOURCES:
+        elif not _is_outside(image):
             continue
         elif os.path.exists(_first_file(image)):
             message = f"It is the file {image.filepath}, outside this one."
@@ -38,11 +42,30 @@ def image_findings(uses: Iterable[Use]) -> list[Finding]:
     return found
 
 
-def _first_file(image: bpy.types.Image) -> str:
-    path = bpy.path.abspath(image.filepath, library=image.library)
-    if image.source == "TILED":
-        return path.replace("<UDIM>", str(image.tiles[0].number))
+def _first_file(data: bpy.types.ID) -> str:
+    path = bpy.path.abspath(data.filepath, library=data.library)
+    if getattr(data, "source", "") == "TILED":
+        return path.replace("<UDIM>", str(data.tiles[0].number))
     return path
+
+
+def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
+    """Return which scripts and IES profiles of used materials, lights and worlds are files."""
+    owners = {tree: use.material for use in uses for tree in use.trees}
+    for owner in (*bpy.data.lights, *bpy.data.worlds):
+        if owner.users and owner.node_tree is not None:
+            owners[owner.node_tree] = owner
+    found = []
+    for tree, owner in owners.items():
+        for node in tree.nodes:
+            if getattr(node, "mode", "") != "EXTERNAL" or not node.filepath:
+                continue
+            here = os.path.exists(bpy.path.abspath(node.filepath, library=tree.library))
+            where = "outside this one" if here else "which is missing"
+            subject = f"Node '{node.name}' of '{owner.name}'"
+            message = f"It reads the file {node.filepath}, {where}."
+            found.append(Finding("warning", subject, message, "Set the node to Internal."))
+    return found
 
 
 def library_findings(uses: Iterable[Use]) -> list[Finding]:
@@ -69,6 +92,39 @@ def library_findings(uses: Iterable[Use]) -> list[Finding]:
             remedy = "Take File > External Data > Make Paths Relative, or make them local."
             found.append(Finding("warning", subject, message, remedy))
     return found
+
+
+def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
+    """Return which files the rest of the scene's data need, those of used materials left out."""
+    told = {
+        getattr(node, "image", None) for use in uses for tree in use.trees for node in tree.nodes
+    }
+    paths = {
+        _first_file(data)
+        for name in _WITH_FILES
+        for data in getattr(bpy.data, name)
+        if data not in told and data.users and not data.library and _is_outside(data)
+    }
+    found = []
+    for level, here, what, remedy in (
+        ("warning", False, "files that are missing", "Put them back, or remove what uses them."),
+        ("note", True, "other files", "Pack them, or send them along."),
+    ):
+        listed = sorted(path for path in paths if os.path.exists(path) == here)
+        if listed:
+            rest = len(listed) - _MOST_LISTED
+            names = ", ".join(listed[:_MOST_LISTED]) + (f" and {rest} more" if rest > 0 else "")
+            message = f"Beside these materials, the file needs {what}: {names}."
+            found.append(Finding(level, "File", message, remedy))
+    return found
+
+
+def _is_outside(data: bpy.types.ID) -> bool:
+    if getattr(data, "packed_file", None) or not data.filepath or data.filepath == "<builtin>":
+        return False
+    return getattr(data, "source", "FILE") in _FILE_SOURCES and not getattr(
+        data, "packed_files", None
+    )
 
 
 def script_findings(uses: Iterable[Use]) -> list[Finding]:

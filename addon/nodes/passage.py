@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What becomes of a ray of sight at a material: it ends, goes on, or is mirrored.
+
+Any material counts, ours and Blender's own; in doubt the ray goes on, so that shares of the
+picture are found too large rather than too small.
+"""
+
+from enum import Enum
+
+import bpy
+
+from .group import KIND_KEY
+from .ranges import Path, input_range
+from .reached import reached_nodes, surface_output
+
+# Below this a reflection shows what stands before it.
+_MIRROR_ROUGHNESS = 0.25
+
+_CLEAR = {"ShaderNodeBsdfGlass", "ShaderNodeBsdfRefraction", "ShaderNodeBsdfTransparent"}
+_GLOSSY = {"ShaderNodeBsdfGlossy", "ShaderNodeBsdfAnisotropic", "ShaderNodeBsdfMetallic"}
+
+
+class Passage(Enum):
+    """What a ray does at a surface."""
+
+    ENDS = "ends"
+    THROUGH = "through"
+    MIRRORED = "mirrored"
+
+
+def passage(material: bpy.types.Material) -> Passage:
+    """Return what a ray of sight does where it meets this material."""
+    output = surface_output(material)
+    linked = [name for name in ("Surface", "Volume") if output and output.inputs[name].is_linked]
+    if linked == ["Volume"]:
+        return Passage.THROUGH
+    found = {_of_node(node, path) for path, node in reached_nodes(material)}
+    # What is both shows more of what is behind it.
+    ways = (Passage.THROUGH, Passage.MIRRORED)
+    return next((way for way in ways if way in found), Passage.ENDS)
+
+
+def _of_node(node: bpy.types.Node, path: Path) -> Passage:
+    def ends(name: str) -> tuple[float, float]:
+        return input_range(node.inputs[name], path)[0]
+
+    name = node.bl_idname
+    kind = node.node_tree.get(KIND_KEY, "") if name == "ShaderNodeGroup" and node.node_tree else ""
+    metal = name in _GLOSSY or kind == "CONDUCTOR"
+    if name in _CLEAR or kind == "DIELECTRIC":
+        return Passage.THROUGH
+    if name == "ShaderNodeBsdfPrincipled":
+        if ends("Transmission Weight")[1] > 0.0 or ends("Alpha")[0] < 1.0:
+            return Passage.THROUGH
+        metal = ends("Metallic")[1] >= 0.5
+    if metal and ends("Roughness")[0] < _MIRROR_ROUGHNESS:
+        return Passage.MIRRORED
+    return Passage.ENDS

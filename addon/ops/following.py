@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What operators share that follow a run of other Blenders while this one goes on being used."""
+
+import bpy
+
+from ..core.run import Progress, Run, RunError, wait_for
+from ..ui.text import label
+
+_INTERVAL = 0.25  # seconds between looks at the run
+
+
+class FollowsRun:
+    """Shows how far a run is, ends it on Esc, and takes its result.
+
+    A subclass has `title`, what is done, start() and finish(). `progress` is that of the run under
+    way, None where there is none.
+    """
+
+    title = ""
+    progress: Progress | None = None
+
+    _run: Run | None = None
+    _timer: bpy.types.Timer | None = None
+
+    def start(self, context: bpy.types.Context) -> Run:
+        """Return a new run. Raises RunError where it cannot begin."""
+        raise NotImplementedError
+
+    def finish(self, context: bpy.types.Context, result: object) -> set[str]:
+        """Take the result of the run and return what the operator does."""
+        raise NotImplementedError
+
+    @classmethod
+    def is_idle(cls) -> bool:
+        """Return whether none is under way; for poll(), to which the reason is told."""
+        if cls.progress is not None:
+            cls.poll_message_set("It is under way: Esc cancels it")
+        return cls.progress is None
+
+    def wait(self, context: bpy.types.Context) -> set[str]:
+        """Run and wait for the end, as scripts want it."""
+        manager = context.window_manager
+        manager.progress_begin(0, 100)
+        try:
+            run = self.start(context)
+            try:
+                result = wait_for(run, lambda done: manager.progress_update(100 * done.part))
+            finally:
+                run.close()
+        except RunError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        finally:
+            manager.progress_end()
+        return self.finish(context, result)
+
+    def follow(self, context: bpy.types.Context) -> set[str]:
+        """Run while Blender is used; where there is no window, wait."""
+        if bpy.app.background:
+            return self.wait(context)
+        try:
+            self._run = self.start(context)
+        except RunError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        self._show(context, self._run.progress())
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Show how far it is; take the result at the end; end it on Esc."""
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, label("{title}: cancelled", title=label(self.title)))
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        try:
+            if self._run.advance():
+                self._show(context, self._run.progress())
+                return {"PASS_THROUGH"}
+            result = self._run.result()
+        except RunError as error:
+            self.cancel(context)
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        except BaseException:
+            self.cancel(context)
+            raise
+        self.cancel(context)
+        return self.finish(context, result)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """End what is under way, also when Blender quits or loads another file."""
+        self._run.close()
+        type(self).progress = None
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        if context.workspace is not None:  # None where Blender quits or loads another file
+            context.workspace.status_text_set(None)
+        _redraw(context)
+
+    def _show(self, context: bpy.types.Context, progress: Progress) -> None:
+        context.window_manager.progress_update(100 * progress.part)
+        if progress == self.progress:
+            return
+        type(self).progress = progress
+        text = label("{title}: Esc cancels", title=label(self.title))
+        context.workspace.status_text_set(f"{text}  |  {progress.text}")
+        _redraw(context)
+
+
+def _redraw(context: bpy.types.Context) -> None:
+    """Draw anew the editors that have our panels."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in ("PROPERTIES", "NODE_EDITOR"):
+                area.tag_redraw()
