@@ -8,6 +8,7 @@ import bpy
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
 from ..ui.preferences import preferences
 from ..ui.text import message
+from .redraw import redraw_panels
 
 # What does the work is imported when it is called: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
@@ -67,6 +68,7 @@ class MICROBOUNCE_OT_analyse(bpy.types.Operator):
         finally:
             manager.progress_end()
         _kept = (bpy.data.filepath, report)
+        redraw_panels(context)
         if not report.rows:
             self.report({"WARNING"}, "No object of the scene shows a Microbounce material")
             return {"FINISHED"}

@@ -5,6 +5,7 @@ import bpy
 
 from ..nodes.before_render import check_scene, forget, remember
 from ..ui.text import message
+from .redraw import redraw_panels
 
 
 class MICROBOUNCE_OT_check_render(bpy.types.Operator):
@@ -26,6 +27,7 @@ class MICROBOUNCE_OT_check_render(bpy.types.Operator):
             self.report({"INFO"}, message("No Microbounce material is rendered in this scene"))
             return {"FINISHED"}
         remember(context.scene, findings)
+        redraw_panels(context)
         for finding in findings:
             self.report({"INFO" if finding.level == "note" else "WARNING"}, finding.as_text())
         if not findings:

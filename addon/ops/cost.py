@@ -8,6 +8,7 @@ import bpy
 from ..core.cost.plan import Options, PlanError, parse_numbers, parse_steps
 from ..core.run import RunError
 from .following import FollowsRun
+from .redraw import redraw_panels
 
 # Imported when it is used: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
@@ -175,6 +176,7 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
         global _last
         _last = result
         load_plot(result)
+        redraw_panels(context)
         self.report({"INFO"}, result["sentence"])
         return {"FINISHED"}
 

@@ -10,6 +10,7 @@ from ..core.finding import Finding, by_level, counts, worst
 from ..core.run import RunError
 from ..ui.text import message
 from .following import FollowsRun
+from .redraw import redraw_panels
 
 # Imported when it is used: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
@@ -84,6 +85,7 @@ class MICROBOUNCE_OT_check_farm(FollowsRun, bpy.types.Operator):
         if result is not None:
             findings += result.findings(Path(bpy.data.filepath))
         _last[context.scene.session_uid] = by_level(findings)
+        redraw_panels(context)
         if worst(findings) in ("error", "warning"):
             text = message("Found by the check for a farm: {counts}", counts=counts(findings))
             self.report({"WARNING"}, text)

@@ -5,6 +5,7 @@ import bpy
 
 from ..core.run import Progress, Run, RunError, wait_for
 from ..ui.text import label
+from .redraw import redraw_panels
 
 _INTERVAL = 0.25  # seconds between looks at the run
 
@@ -101,7 +102,7 @@ class FollowsRun:
         context.window_manager.progress_end()
         if context.workspace is not None:  # None where Blender quits or loads another file
             context.workspace.status_text_set(None)
-        _redraw(context)
+        redraw_panels(context)
 
     def _show(self, context: bpy.types.Context, progress: Progress) -> None:
         context.window_manager.progress_update(100 * progress.part)
@@ -110,12 +111,4 @@ class FollowsRun:
         type(self).progress = progress
         text = label("{title}: Esc cancels", title=label(self.title))
         context.workspace.status_text_set(f"{text}  |  {progress.text}")
-        _redraw(context)
-
-
-def _redraw(context: bpy.types.Context) -> None:
-    """Draw anew the editors that have our panels."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in ("PROPERTIES", "NODE_EDITOR"):
-                area.tag_redraw()
+        redraw_panels(context)

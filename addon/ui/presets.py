@@ -28,8 +28,9 @@ from ..ops.user_presets import (
 from . import previews
 from .panels import draw_lines, draw_text
 
-# What the pictures show, a choice of the window manager, so that no file stores it.
-SHOWN = "microbounce_presets_shown"
+# Choices of the window manager, so that no file stores them: which pictures there are, and whether
+# they are folded out.
+SHOWN, OPEN = "microbounce_presets_shown", "microbounce_presets_open"
 _PICTURE_SCALE = 3.6  # in units of the interface's line height
 
 
@@ -84,7 +85,7 @@ def draw_presets(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
     for problem in problems():
         draw_text(layout, context, problem, "ERROR")
     _draw_library(layout, context)
-    header, body = layout.panel("microbounce_preset_pictures", default_closed=True)
+    header, body = layout.panel_prop(context.window_manager, OPEN)
     header.label(text="Pictures")
     if body is not None:
         _draw_pictures(body, context, node)
@@ -176,7 +177,7 @@ CLASSES = (
 
 
 def register() -> None:
-    """Add the choice of the pictures shown."""
+    """Add the choices."""
     choice = bpy.props.EnumProperty(
         name="Presets Shown",
         description="Which presets the panel shows",
@@ -187,9 +188,12 @@ def register() -> None:
         ],
     )
     setattr(bpy.types.WindowManager, SHOWN, choice)
+    folded_out = bpy.props.BoolProperty(name="Pictures", description="Show pictures of the presets")
+    setattr(bpy.types.WindowManager, OPEN, folded_out)
 
 
 def unregister() -> None:
-    """Take it out, and the pictures out of memory."""
-    delattr(bpy.types.WindowManager, SHOWN)
+    """Take them out, and the pictures out of memory."""
+    for name in (SHOWN, OPEN):
+        delattr(bpy.types.WindowManager, name)
     previews.release()

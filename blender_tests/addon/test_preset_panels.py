@@ -25,8 +25,8 @@ class Record:
 
     column = box = row
 
-    def panel(self, name, default_closed=False):
-        self.panels.append((name, default_closed))
+    def panel_prop(self, data, name):
+        self.panels.append((name, getattr(data, name)))
         return self, self
 
     def grid_flow(self, **options):
@@ -103,7 +103,7 @@ def test_pictures_are_those_of_the_materials_kind_or_as_chosen(registered, kind)
     record = draw(registered, PANEL, material)
     assert shown(record) == own
     assert len(record.icons) == len(own)
-    assert [closed for _, closed in record.panels] == [True], "they take much room"
+    assert [is_open for _, is_open in record.panels] == [False], "they take much room"
     assert [button.text for button in record.named("apply_preset")] == [
         preset.name for preset in presets.presets(kind)
     ]

@@ -17,7 +17,7 @@ from .session import NODES, PROPERTIES, ROOT, run_session
 
 # The pictures in docs/: at which moment of the session, and which editor.
 _PICTURES = {
-    "material_panel.jpg": ("searched", PROPERTIES),
+    "presets.jpg": ("pictures", PROPERTIES),
     "shader_editor.jpg": ("checked", NODES),
 }
 

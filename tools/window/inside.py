@@ -44,6 +44,8 @@ def steps() -> Iterator[float]:
     names = watch_panels(MODULE, result["drawn"], result["errors"], opened=True)
     result["panels"] = names
     yield from editors.workspace("Modeling")
+    with in_area(VIEW):
+        bpy.ops.object.mode_set(mode="OBJECT")  # in Edit Mode Blender undoes the mesh alone
     yield from _all_open()
     yield from editors.workspace("Layout")
     with bpy.context.temp_override(window=window()):
@@ -73,8 +75,23 @@ def _as_installed() -> Iterator[float]:
     _note("searched")
 
 
+def _pictures() -> Iterator[float]:
+    """Look at the pictures of the presets where there is room for them."""
+    large = area(VIEW)
+    large.ui_type = PROPERTIES
+    large.spaces.active.context = "MATERIAL"
+    bpy.context.window_manager.microbounce_presets_open = True
+    yield from drawn()
+    yield from editors.scroll_down(PROPERTIES, 17)
+    _note("pictures")
+    bpy.context.window_manager.microbounce_presets_open = False
+    large.ui_type = VIEW
+    yield from drawn()
+
+
 def _all_open() -> Iterator[float]:
     """Press the buttons with all panels open, and take back what they did."""
+    yield from _pictures()
     area(PROPERTIES).spaces.active.context = "MATERIAL"
     yield from editors.show_nodes()
     # A zip may be made without the library.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Notes which of an extension's panels are drawn, and what goes wrong there; runs in Blender."""
 
+import sys
 import traceback
 
 import bpy
@@ -12,7 +13,9 @@ def watch_panels(module: str, drawn: list[str], errors: list[str], opened: bool)
     opened -- whether those that are closed at first are open, in screens not yet shown
     Returns the panels' names.
     """
-    classes = [cls for cls in _subclasses(bpy.types.Panel) if cls.__module__.startswith(module)]
+    parts = sys.modules[f"{module}.registration"]._MODULES
+    found = [cls for part in parts for cls in getattr(part, "CLASSES", ())]
+    classes = [cls for cls in found if issubclass(cls, bpy.types.Panel)]
     for cls in reversed(classes):
         bpy.utils.unregister_class(cls)
     for cls in classes:
@@ -21,12 +24,6 @@ def watch_panels(module: str, drawn: list[str], errors: list[str], opened: bool)
         cls.draw = _watched(cls.__name__, cls.draw, drawn, errors)
         bpy.utils.register_class(cls)
     return sorted(cls.__name__ for cls in classes)
-
-
-def _subclasses(cls: type) -> list[type]:
-    """Return the classes that are registered, parents of panels before their children."""
-    found = [sub for sub in cls.__subclasses__() if getattr(sub, "is_registered", False)]
-    return sorted(found, key=lambda sub: hasattr(sub, "bl_parent_id"))
 
 
 def _watched(name: str, draw: object, drawn: list[str], errors: list[str]) -> object:
