@@ -55,7 +55,7 @@ def draw_lines(
     """Draw `text` as lines that fit the region, which labels do not do by themselves."""
     scale = context.preferences.system.ui_scale or 1.0  # 0 without a window
     width = max(20, int((context.region.width / scale - _SIDES) / _CHARACTER))
-    for number, line in enumerate(textwrap.wrap(text, width)):
+    for number, line in enumerate(textwrap.wrap(text.replace(" %", "\u00a0%"), width)):
         column.label(text=line, icon="BLANK1" if number else icon)
 
 

@@ -17,6 +17,8 @@ def test_it_comes_to_its_end_without_an_error(session):
     assert session["errors"] == []
     assert session["done"]
     assert "Traceback" not in session["printed"]
+    assert "RuntimeWarning" not in session["printed"]
+    assert "bpy.rna" not in session["printed"]
     lines = session["printed"].splitlines()
     # Blender's own, when it quits.
     own = ("Error: Not freed memory",)

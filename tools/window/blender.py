@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-_SIZE = (1600, 1000)
+SIZE = (1600, 1000)  # of the window and of the screen, in pixels
 _START_OF_XVFB = 10.0  # seconds
 
 
@@ -59,7 +59,7 @@ def run_in_window(script: Path, settings: dict[str, object], seconds: float) -> 
         settings = settings | {"screen": str(screen) if screen.is_file() else ""}
         (folder / "settings.json").write_text(json.dumps(settings), encoding="utf-8")
         result = folder / "result.json"
-        width, height = map(str, _SIZE)
+        width, height = map(str, SIZE)
         done = _run(
             [
                 *blender,
@@ -126,7 +126,7 @@ def _display(folder: str) -> Iterator[dict[str, str]]:
         return
     # It picks a free number by itself and writes it into the pipe.
     reading, writing = os.pipe()
-    screen = ["-screen", "0", f"{_SIZE[0]}x{_SIZE[1]}x24", "-fbdir", folder]
+    screen = ["-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-fbdir", folder]
     server = subprocess.Popen(
         ["Xvfb", "-displayfd", str(writing), *screen],
         pass_fds=[writing],

@@ -37,7 +37,11 @@ def drawn() -> Iterator[float]:
 
 
 def workspace(name: str) -> Iterator[float]:
-    """Go to one of the workspaces of Blender's own start-up file."""
+    """Go to one of the workspaces of Blender's own start-up file, and stay in Object Mode.
+
+    In Edit Mode Blender undoes changes of the mesh alone.
+    """
+    bpy.data.workspaces[name].object_mode = "OBJECT"
     window().workspace = bpy.data.workspaces[name]
     yield from drawn()
 

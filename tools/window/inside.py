@@ -44,8 +44,6 @@ def steps() -> Iterator[float]:
     names = watch_panels(MODULE, result["drawn"], result["errors"], opened=True)
     result["panels"] = names
     yield from editors.workspace("Modeling")
-    with in_area(VIEW):
-        bpy.ops.object.mode_set(mode="OBJECT")  # in Edit Mode Blender undoes the mesh alone
     yield from _all_open()
     yield from editors.workspace("Layout")
     with bpy.context.temp_override(window=window()):

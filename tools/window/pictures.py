@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 
-def save_part(screen: Path, part: list[int], target: Path, quality: int = 85) -> None:
+def save_part(screen: Path, part: list[int], target: Path, quality: int = 75) -> None:
     """Save a part of a screen, as a PNG or, for another suffix of `target`, as a JPEG.
 
     screen  -- what Xvfb keeps in its folder: an X window dump, whose pixels are blue, green, red
