@@ -31,10 +31,14 @@ class Finding:
         """Return the finding as plain data; its keys are the names of the fields."""
         return asdict(self)
 
+    @property
+    def text(self) -> str:
+        """The finding as one line for people, without its level."""
+        return f"{self.subject}: {self.message} {self.remedy}".rstrip()
+
     def as_text(self) -> str:
         """Return the finding as one line for people."""
-        parts = (f"{self.level.title()}: {self.subject}: {self.message}", self.remedy)
-        return " ".join(part for part in parts if part)
+        return f"{self.level.title()}: {self.text}"
 
 
 def worst(findings: Iterable[Finding]) -> str:

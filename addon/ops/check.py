@@ -29,7 +29,7 @@ class MICROBOUNCE_OT_check_render(bpy.types.Operator):
         remember(context.scene, findings)
         redraw_panels(context)
         for finding in findings:
-            self.report({"INFO" if finding.level == "note" else "WARNING"}, finding.as_text())
+            self.report({"INFO" if finding.level == "note" else "WARNING"}, finding.text)
         if not findings:
             self.report({"INFO"}, message("The Microbounce materials will render as they should"))
         return {"FINISHED"}
