@@ -198,7 +198,9 @@ def _reason(surface: Surface, options: Sequence[Option], then: Option) -> str:
         loss = predicted_loss(surface, then.choice)
         return f"{alpha}: further bounces carry {percent(loss)} of its light"
     cheaper = [_shortfall(surface, option) for option in options if option.cost < then.cost]
-    return f"{alpha}: {', '.join(cheaper) or 'no step costs less'}"
+    nearest = all(option.error >= then.error for option in options)
+    least = "no step costs less or is nearer" if nearest else "no step costs less"
+    return f"{alpha}: {', '.join(cheaper) or least}"
 
 
 def _shortfall(surface: Surface, option: Option) -> str:

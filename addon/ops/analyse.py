@@ -14,7 +14,6 @@ from .redraw import redraw_panels
 if TYPE_CHECKING:
     from ..nodes.analyse import Report
 
-TOLERANCE_PROPERTY = "microbounce_analysis_tolerance"
 # What finding the shares of the picture may take, so that no scene holds Blender up for long.
 _SECONDS = 5.0
 

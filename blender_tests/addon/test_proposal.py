@@ -90,6 +90,12 @@ def test_rough_metal_is_fitted_and_says_why() -> None:
     assert not made.changes
 
 
+def test_what_is_both_cheapest_and_nearest_says_so() -> None:
+    made = proposed(surface("DIFFUSE", 1.0))
+    assert made.then == FITTED
+    assert made.reason == "alpha 1: no step costs less or is nearer"
+
+
 def test_nothing_is_paid_for_what_is_not_needed() -> None:
     """Rough glass takes a cheaper step where it fills little of the picture."""
     rough = surface("DIELECTRIC", 1.0)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a sample of a pixel costs that shows a material, in the scene of mixed materials."""
 
+from collections.abc import Iterable
 from functools import partial
 
 import bpy
@@ -20,8 +21,14 @@ BASE = ("CONDUCTOR", "Single", 0.25)
 _EMPTY = ("EMPTY",)
 
 
-def measure() -> tuple[list[dict], float]:
-    """Time all kinds and steps at ALPHAS, each on all spheres of the scene, over BASE.
+def measure(
+    kinds: Iterable[str] = tuple(KINDS),
+    alphas: Iterable[float] = ALPHAS,
+    samples: int = SAMPLES,
+    rounds: int = ROUNDS,
+) -> tuple[list[dict], float]:
+    """Time these kinds, in all steps at these alphas, each on all spheres of the scene, over BASE,
+    which must be one of them.
 
     Returns rows of costs, and the cost of a pixel that shows nothing but the world. The costs are
     of what the spheres cover: what the world around them takes is subtracted.
@@ -36,15 +43,15 @@ def measure() -> tuple[list[dict], float]:
                 sphere.data.materials[0] = material
 
     switches = {_EMPTY: partial(show, None)}
-    for kind in KINDS:
-        for alpha in ALPHAS:
+    for kind in kinds:
+        for alpha in alphas:
             for step in STEPS:
                 name = f"{kind.title()} {alpha} {step}"
                 made = new_material(kind, name, Roughness=alpha**0.5, Quality=step)
                 switches[kind, step, alpha] = partial(show, made)
     switches[BASE]()
     (covered,) = picture_shares(bpy.context).by_name.values()
-    times = time_samples(scene, switches, samples=SAMPLES, rounds=ROUNDS)
+    times = time_samples(scene, switches, samples=samples, rounds=rounds)
     empty = times.ratio(_EMPTY, BASE)
     around = (1.0 - covered) * empty
 
@@ -52,8 +59,8 @@ def measure() -> tuple[list[dict], float]:
         return (times.ratio(variant, BASE) - around) / (1.0 - around)
 
     rows = [
-        {"kind": kind, "step": step, "costs": [cost(kind, step, alpha) for alpha in ALPHAS]}
-        for kind in KINDS
+        {"kind": kind, "step": step, "costs": [cost(kind, step, alpha) for alpha in alphas]}
+        for kind in kinds
         for step in STEPS
     ]
     return rows, empty * covered / (1.0 - around)

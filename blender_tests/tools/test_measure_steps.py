@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Errors and costs that the analysis goes by are still those of the shaders, measured anew."""
+
+import pytest
+
+from addon.core import step_errors
+from blender_tests.render.pictures import Widths
+from blender_tests.render.test_converged import Case
+from tools.steps import costs, pictures
+
+REMEDY = "run `python -m tools.measure_steps`"
+
+
+@pytest.mark.parametrize(
+    ("kind", "distribution", "alpha", "step"),
+    [
+        ("CONDUCTOR", "GGX", 0.5, "Fitted"),
+        ("CONDUCTOR", "GGX", 0.25, "Walk"),
+        ("DIFFUSE", "GGX", 1.0, "Fitted"),
+    ],
+)
+def test_errors_are_todays(kind: str, distribution: str, alpha: float, step: str) -> None:
+    case = Case("sun", kind, Widths(alpha, alpha), distribution)
+    number = step_errors.NAMES.index(distribution.upper())
+    stored = step_errors.off(kind, number, step_errors.ISOTROPIC, step, (alpha, alpha))
+    assert stored == pytest.approx(pictures.measured(case, step), rel=0.15, abs=0.001), REMEDY
+
+
+@pytest.mark.timing
+def test_costs_are_todays() -> None:
+    """Within a third of metal at alpha 0.25, of one short round."""
+    rows, background = costs.measure(("CONDUCTOR",), (0.25,), samples=32, rounds=1)
+    assert [row["step"] for row in rows] == list(step_errors.STEPS)
+    for row in rows:
+        stored = step_errors.cost("CONDUCTOR", row["step"], (0.25, 0.25))
+        assert row["costs"] == pytest.approx([stored], rel=0.33), REMEDY
+    assert background == pytest.approx(step_errors.background(), abs=0.05), REMEDY
