@@ -13,7 +13,7 @@ from .find import our_nodes, surface_tree
 from .group import GROUP_ERRORS, script_node
 from .rendered import rendered_materials
 from .scene_status import scene_status
-from .update import is_newer, is_of_another_version
+from .versions import is_newer, is_of_another_version
 
 _MISSING = "The library file of its node group is missing: it renders black."
 _FIND = "Use File > External Data > Find Missing Files, or put the library back."

@@ -46,7 +46,7 @@ def material_group(kind: str) -> bpy.types.ShaderNodeTree:
     """
     made = kind_named(kind)
     source = inlined_source(made.shader)
-    stamp = _stamp(made, source)
+    stamp = group_stamp(made, source)
     group = _group_with(stamp, made)
     script = script_node(group) if group is not None else None
     if script is not None and script.bytecode and script.script is not None:
@@ -112,7 +112,7 @@ def has_bytecode(group: bpy.types.ShaderNodeTree) -> bool:
     return script is not None and bool(script.bytecode)
 
 
-def _stamp(kind: Kind, source: str) -> str:
+def group_stamp(kind: Kind, source: str) -> str:
     """Return what tells this group from those of other versions: all that it is made from."""
     made_from = f"{VERSION} {GROUP_REVISION} {kind!r} {source}"
     return hashlib.sha256(made_from.encode()).hexdigest()[:16]

@@ -3,17 +3,15 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache
 
 import bpy
 
-from ..core import VERSION
 from ..core.kinds import KINDS
-from ..core.shader_source import inlined_source
 from .convert.animation import Curves, input_curves, move_curves
 from .convert.state import Value, plain_value
 from .convert.translation import shown
-from .group import KIND_KEY, STAMP_KEY, VERSION_KEY, _stamp, material_group, script_node
+from .group import KIND_KEY, VERSION_KEY, material_group, script_node
+from .versions import forget_stamps, is_newer, is_of_another_version
 
 
 @dataclass
@@ -53,7 +51,7 @@ def update_materials() -> Update:
     nothing uses them any more. Raises one of GROUP_ERRORS where a group cannot be made; nothing is
     changed then.
     """
-    _todays_stamp.cache_clear()  # the sources may have changed on disk
+    forget_stamps()  # the sources may have changed on disk
     done = Update()
     old = set(old_groups())
     new = {kind: material_group(kind) for kind in sorted({group[KIND_KEY] for group in old})}
@@ -75,28 +73,8 @@ def update_materials() -> Update:
     return done
 
 
-@cache
-def _todays_stamp(kind: str) -> str:
-    return _stamp(KINDS[kind], inlined_source(KINDS[kind].shader))
-
-
 def _is_old(group: bpy.types.NodeTree) -> bool:
     return is_of_another_version(group) and not is_newer(group)
-
-
-def is_of_another_version(group: bpy.types.NodeTree) -> bool:
-    """Return whether a group is one of ours, and not today's."""
-    kind = group.get(KIND_KEY)
-    return kind in KINDS and group.get(STAMP_KEY) != _todays_stamp(kind)
-
-
-def is_newer(group: bpy.types.NodeTree) -> bool:
-    """Return whether a newer version of the extension made a group."""
-    return _numbers(str(group.get(VERSION_KEY, ""))) > _numbers(VERSION)
-
-
-def _numbers(version: str) -> list[int]:
-    return [int(part) for part in version.split(".") if part.isdecimal()]
 
 
 def _shader_trees() -> Iterator[tuple[bpy.types.ID, bpy.types.NodeTree]]:

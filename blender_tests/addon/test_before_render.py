@@ -292,14 +292,14 @@ def test_a_missing_library(registered, tmp_path):
 
 def test_a_damaged_installation_is_a_note(osl_scene, monkeypatch):
     from addon.core.shader_source import ShaderSourceError
-    from addon.nodes import update
+    from addon.nodes import versions
 
     def missing(name):
         raise ShaderSourceError(f"The shader file {name}.osl is missing. Reinstall the extension")
 
     give_material()
-    update._todays_stamp.cache_clear()
-    monkeypatch.setattr(update, "inlined_source", missing)
+    versions.forget_stamps()
+    monkeypatch.setattr(versions, "inlined_source", missing)
     finding = the_finding(osl_scene)
     assert finding.level == "note"
     assert "Reinstall the extension" in finding.message

@@ -12,7 +12,7 @@ from ...core.oso import same_program
 from ...core.shader_source import ShaderSourceError, inlined_source
 from ..group import KIND_KEY, script_node
 from ..script import OslUnavailableError, ShaderCompileError, compile_source
-from ..update import is_newer, is_of_another_version
+from ..versions import is_newer, is_of_another_version
 
 # A file has few sources; a check of several files in a row meets the same ones again.
 _compiled = lru_cache(maxsize=8)(compile_source)
