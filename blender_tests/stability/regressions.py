@@ -32,6 +32,16 @@ VALUES = {
         },
         "was -40.12 for -40.00: 1 - number stays keeps few digits of a small chance to stay",
     ),
+    "next height, near the top": Value(
+        "next_height",
+        {
+            "alpha": (0.0001, 0.0001, 0.0),
+            "log_u": -1.0,
+            "number": 0.9999999403953552,
+            "o": (1.0, 0.0, 5e-05),
+        },
+        "was -1.5e-5 for -1.6e-7: log(u) and the rise from there cancel",
+    ),
     "glass of a very low index, straight on": Value(
         "dielectric_fresnel",
         {"cosine": 1.0, "eta": 0.010016879066824913},

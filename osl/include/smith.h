@@ -77,21 +77,27 @@ float height_met(Incidence arrival, float number)
   return log(max(number, 1e-37)) * abs(arrival.v[2]) / max(arrival.area, 1e-37);
 }
 
+// exp() of more would come near the largest float.
+#define LARGEST_EXPONENT 80
+
 // Where a path that stays, at height `log_u` towards `o`, meets the surface again (Heitz et al.
-// 2016): downwards u U^(1/|Lambda|); upwards u / T^(1/Lambda), T uniform between the chance to
-// escape, u^Lambda, and 1. |Lambda| = sigma(-o) / |o.z|.
+// 2016), with |Lambda| = sigma(-o) / |o.z|: downwards u U^(1/|Lambda|); upwards u / T^(1/Lambda), T
+// uniform between the chance to escape, u^Lambda, and 1. That is written from the top, so that it
+// keeps its digits there: 1 / (1 + (1 - U) (u^-Lambda - 1))^(1/Lambda).
 float next_height(Microsurface surface, vector o, float log_u, float number)
 {
   float depth = abs(o[2]);
   float back = max(-o[2], 0) + projected_excess(surface, o);
-  float rise;
-  if (o[2] > 0) {
-    float x = number * one_minus_exp(log_u * back / depth);
-    rise = -log_of_rest(x, 1 - x);
-  }
-  else
-    rise = log(max(number, 1e-37));
-  return (back > 0) ? min(log_u + rise * depth / back, 0) : log_u;
+  if (!(back > 0))
+    return log_u;
+  if (o[2] <= 0)
+    return log_u + log(max(number, 1e-37)) * depth / back;
+  float steps = -log_u * back / depth;
+  float rest = max(1 - number, 0);
+  if (steps > LARGEST_EXPONENT)  // all but certain to stay: T = 1 - U
+    return min(log_u - log(max(rest, 1e-37)) * depth / back, 0);
+  float odds = -rest * one_minus_exp(steps);
+  return -odds * log1p_over(odds) * depth / back;
 }
 
 // The chance that a path at height `log_u` that is sent to `o` leaves: u^Lambda(o).
