@@ -100,15 +100,16 @@ closure color all_closures(Frame frame, Microsurface surface, Facet facet, vecto
                            Accuracy accuracy, output RandomStream stream)
 {
   closure color lobes = 0;
+  Frame own = grounded(frame);
   // A path goes through glass many times, most of them after bounces that have spread it already.
   int one = facet.kind == DIELECTRIC && accuracy.quality > 0 && !raytype("camera");
   if (one || accuracy.quality == 3)
-    return one_walk(frame, surface, facet, wi, accuracy, stream);
+    return one_walk(own, surface, facet, wi, accuracy, stream);
   if (accuracy.only < 2)
-    lobes = first_bounce(frame, surface, facet, wi, accuracy, stream);
+    lobes = first_bounce(own, surface, facet, wi, accuracy, stream);
   if (accuracy.quality > 0 && accuracy.only != 1 && accuracy.max_bounces > 1
       && further_energy_bound(surface, facet, wi) > accuracy.tolerance)
-    lobes = further_bounces(frame, surface, facet, wi, accuracy, stream) + lobes;
+    lobes = further_bounces(own, surface, facet, wi, accuracy, stream) + lobes;
   return lobes;
 }
 

@@ -35,7 +35,7 @@ float possible_part(float part, float leave[FACETS], float carried[FACETS], int 
 }
 
 // Reflection by Cycles' own closures, which are height-correlated, times `part`.
-closure color whole_reflection(Frame frame, Microsurface surface, Facet facet, float part)
+closure color whole_reflection(Frame frame, Microsurface surface, Facet facet, color part)
 {
   string ndf = distribution_name(surface);
   if (facet.kind == DIELECTRIC)

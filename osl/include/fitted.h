@@ -22,7 +22,8 @@ int is_fitted(Microsurface surface, Facet facet, Accuracy accuracy)
 // would be up to 0.01 too dark for metals that reflect less before they reflect all.
 color mean_facet_weight(Facet facet, float cosine)
 {
-  float low = min(pow((1 - cosine) / (1 - LOW_COSINE), 5), 1);
+  float s = (1 - cosine) / (1 - LOW_COSINE), s2 = s * s;
+  float low = min(s2 * s2 * s, 1);
   return mix(facet_weight(facet, 1), facet_weight(facet, LOW_COSINE), low);
 }
 
@@ -31,7 +32,13 @@ color mean_facet_weight(Facet facet, float cosine)
 color successive_bounces(color each, float rest, int count)
 {
   color kept = rest * each;
-  return ((1 - rest) / (1 - kept)) * (1 - pow(kept, max(count, 0)));
+  color beyond = color(1), power = kept;  // kept^count
+  for (int n = count; n > 0; n = n >> 1) {
+    if (n & 1)
+      beyond *= power;
+    power *= power;
+  }
+  return ((1 - rest) / (1 - kept)) * (1 - beyond);
 }
 
 // The factor on white light of bounces 3 to `max_bounces`.

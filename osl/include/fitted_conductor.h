@@ -16,15 +16,16 @@
 
 // A reflection of widths `along` the plane of incidence and `across` it, about the normal that
 // mirrors the view to where its sine is `ratio` times as large.
-closure color aimed_reflection(Frame frame, Microsurface surface, vector wi, float ratio,
-                               float along, float across)
+closure color aimed_reflection(Frame frame, Microsurface surface, vector wi, color weight,
+                               float ratio, float along, float across)
 {
   float sine2 = wi[0] * wi[0] + wi[1] * wi[1];
   float z = sqrt(max(1 - ratio * ratio * sine2, LOWEST_MIRROR * LOWEST_MIRROR));
   vector h = normalize(vector((1 - ratio) * wi[0], (1 - ratio) * wi[1], wi[2] + z));
   vector sideways = (sine2 > 0) ? normalize(vector(-wi[1], wi[0], 0)) : vector(0, 1, 0);
-  return microfacet(distribution_name(surface), to_world(frame, h),
-                    to_world(frame, cross(sideways, h)), min(along, 1), min(across, 1), 1, 0);
+  return weight * microfacet(distribution_name(surface), to_world(frame, h),
+                             to_world(frame, cross(sideways, h)), min(along, 1), min(across, 1),
+                             1, 0);
 }
 
 // That of the isotropic surface which stands for a nearly isotropic one.
@@ -54,8 +55,8 @@ closure color fitted_further_bounces(Frame frame, Microsurface surface, Facet fa
   for (int k = 0; k < KNOTS; ++k)
     ramp[k] = second * v[k] + later * v[KNOTS + k];
   // Cycles picks the first bounce as if it lost nothing.
-  return (second * v[16] + later * v[17])
-             * aimed_reflection(frame, surface, wi, v[19], alpha * v[20], alpha * v[21])
+  return aimed_reflection(frame, surface, wi, second * v[16] + later * v[17], v[19],
+                          alpha * v[20], alpha * v[21])
          + ramp_lobe(frame.z, ramp, 1 / (1 - energy[0]));
 }
 
@@ -73,12 +74,8 @@ closure color unseen_conductor(Frame frame, Microsurface surface, Facet facet, v
   color kept = c[0] * second
                + (1 - c[0]) * later * later * successive_bounces(later, c[3], max_bounces - 2);
   kept *= energy[0];
-  float emphasis = 1 / (1 - energy[0]);
-  color ramp[KNOTS];
-  for (int k = 0; k < KNOTS; ++k)
-    ramp[k] = c[4] * k / (KNOTS - 1.0) * second * kept;
-  return (1 + (1 - c[4]) * emphasis * kept) * whole_reflection(frame, surface, facet, 1)
-         + ramp_lobe(frame.z, ramp, emphasis);
+  return whole_reflection(frame, surface, facet, 1 + (1 - c[4]) / (1 - energy[0]) * kept)
+         + (c[4] * second * kept) * diffuse(frame.z);
 }
 
 // Surfaces that are nearly isotropic have the closures of both kinds, so that nothing jumps.
@@ -86,18 +83,17 @@ closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, v
                                Accuracy accuracy)
 {
   int bounces = accuracy.max_bounces;
-  closure color lobes = whole_reflection(frame, surface, facet, 1);
   if (bounces == 1 || further_energy_bound(surface, facet, wi) <= accuracy.tolerance)
-    return lobes;
+    return whole_reflection(frame, surface, facet, 1);
   float part = min((1 - surface.alpha_y / surface.alpha_x) / LARGEST_BLENDED_ASPECT, 1);
-  if (part < 1) {
-    if (!is_seen())
-      return unseen_conductor(frame, surface, facet, wi, bounces);
+  if (part < 1 && !is_seen())
+    return unseen_conductor(frame, surface, facet, wi, bounces);
+  closure color lobes = whole_reflection(frame, surface, facet, 1);
+  if (part == 0)
+    return fitted_further_bounces(frame, surface, facet, wi, bounces) + lobes;
+  if (part < 1)
     lobes = (1 - part) * fitted_further_bounces(frame, surface, facet, wi, bounces) + lobes;
-  }
-  if (part > 0)
-    lobes = part * anisotropic_further_bounces(frame, surface, facet, wi, bounces) + lobes;
-  return lobes;
+  return part * anisotropic_further_bounces(frame, surface, facet, wi, bounces) + lobes;
 }
 
 #endif

@@ -96,7 +96,8 @@ closure color fitted_dielectric(Frame frame, Microsurface surface, Facet facet, 
     RandomStream stream = random_stream(P, I);
     int facets = (accuracy.max_bounces > 1) ? FITTED_FACETS : FACETS;
     lobes = single * (whole_reflection(frame, surface, facet, 1)
-                      + first_refraction(frame, surface, facet, wi, facets, stream))
+                      + first_refraction(grounded(frame), surface, facet, wi, facets,
+                                          stream))
             + lobes;
   }
   if (single < 1)

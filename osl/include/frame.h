@@ -7,8 +7,7 @@ struct Frame {
   vector x;
   vector y;
   vector z;
-  // bending_ground() in these coordinates.
-  vector ground;
+  vector ground;  // bending_ground() in these coordinates, from grounded() on
 };
 
 // Smallest cosine between the viewer and the macro-normal. Smooth and bumped normals can turn away
@@ -74,6 +73,16 @@ Frame shading_frame(vector n, vector tangent)
   return frame;
 }
 
+// An arbitrary frame about `n`.
+Frame any_frame(vector n)
+{
+  Frame frame;
+  frame.z = n;
+  frame.x = any_tangent(n);
+  frame.y = cross(n, frame.x);
+  return frame;
+}
+
 vector to_local(Frame frame, vector w)
 {
   return vector(dot(w, frame.x), dot(w, frame.y), dot(w, frame.z));
@@ -82,6 +91,15 @@ vector to_local(Frame frame, vector w)
 vector to_world(Frame frame, vector w)
 {
   return w[0] * frame.x + w[1] * frame.y + w[2] * frame.z;
+}
+
+// The same frame, for closures of which Cycles may bend the normal. Fitted mostly has none of them,
+// and is spared the question.
+Frame grounded(Frame frame)
+{
+  Frame known = frame;
+  known.ground = to_local(frame, bending_ground());
+  return known;
 }
 
 #endif

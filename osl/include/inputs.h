@@ -23,7 +23,7 @@ color legal(color value, float low, float high, color fallback)
 vector direction(vector value, vector fallback)
 {
   float squared = dot(value, value);
-  return (isfinite(squared) && squared > 0) ? value / sqrt(squared) : fallback;
+  return (isfinite(squared) && squared > 0) ? normalize(value) : fallback;
 }
 
 // The rough surface of Cycles' Metallic BSDF: alpha = roughness^2, spread by the aspect and limited
@@ -45,18 +45,16 @@ Microsurface microsurface(float roughness, float anisotropy, int distribution, i
 Frame oriented_frame(Microsurface surface, vector n, vector fallback, vector given, float rotation,
                      vector view)
 {
-  vector ground = bending_ground();
-  vector z = corrected_normal(visible_normal(direction(n, fallback), view), view, ground);
-  vector tangent = any_tangent(z);
-  if (surface.alpha_x != surface.alpha_y) {
-    tangent = direction(given, direction(dPdu, tangent));
-    float turns = legal(rotation, -1e3, 1e3, 0);
-    if (turns != 0)
-      tangent = rotate(tangent, turns * M_2PI, point(0), point(z));
-  }
-  Frame frame = shading_frame(z, tangent);
-  frame.ground = to_local(frame, ground);
-  return frame;
+  vector z = visible_normal(direction(n, fallback), view);
+  if (!is_left_alone(z, view, Ng))
+    z = corrected_normal(z, view, bending_ground());
+  if (surface.alpha_x == surface.alpha_y)
+    return any_frame(z);
+  vector tangent = direction(given, direction(dPdu, any_tangent(z)));
+  float turns = legal(rotation, -1e3, 1e3, 0);
+  if (turns != 0)
+    tangent = rotate(tangent, turns * M_2PI, point(0), point(z));
+  return shading_frame(z, tangent);
 }
 
 Accuracy legal_accuracy(int quality, int max_bounces, int only, float tolerance, int walks,

@@ -22,8 +22,8 @@ color ramp_energy(color knots[KNOTS])
 closure color ramp_lobe(vector axis, color knots[KNOTS], float emphasis)
 {
   color energy = ramp_energy(knots);
-  float weight = emphasis * max(max(energy[0], energy[1]), energy[2]);
-  float scale = 1 / weight;
+  color weight = emphasis * max(max(energy[0], energy[1]), energy[2]);
+  float scale = 1 / weight[0];
   color proportions[KNOTS];
   for (int k = 0; k < KNOTS; ++k)
     proportions[k] = scale * knots[k];
