@@ -11,7 +11,7 @@ from blender_tests.oracle.materials import Diffuse
 from blender_tests.oracle.surface import BECKMANN, GGX, Surface
 from osl.tables import conductor, diffuse, grid
 from osl.tables.__main__ import FITTED, is_stale, path
-from osl.tables.ierfcx import is_stale as is_ierfcx_stale
+from osl.tables.special import is_stale as are_special_stale
 
 from .probe import evaluate
 
@@ -31,8 +31,8 @@ def test_header_is_no_older_than_its_sources(name: str) -> None:
     assert not is_stale(name), "run make tables"
 
 
-def test_ierfcx_is_what_its_generator_writes() -> None:
-    assert not is_ierfcx_stale(), "run make tables"
+def test_special_functions_are_what_their_generator_writes() -> None:
+    assert not are_special_stale(), "run make tables"
 
 
 @pytest.mark.parametrize("name", ["conductor", "dielectric", "diffuse"])
@@ -96,6 +96,6 @@ def test_energy_between_nodes(distribution: str) -> None:
 
 def test_ierfcx() -> None:
     x = np.concatenate([[0.0], np.geomspace(1e-6, 1e4, 4000)]).astype(np.float32)
-    found = evaluate("../tables/ierfcx.h", "result = ierfcx(x);", x=x)[:, 0]
+    found = evaluate("../tables/special.h", "result = ierfcx(x);", x=x)[:, 0]
     wanted = deficit(x.astype(float))
     assert np.max(np.abs(found / wanted - 1.0)) < 1e-6

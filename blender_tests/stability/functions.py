@@ -268,7 +268,7 @@ FUNCTIONS = {
         ),
     ),
     "ierfcx": Function(
-        "../tables/ierfcx.h",
+        "../tables/special.h",
         "result = ierfcx(x);",
         {"x": a.NUMBER},
         deficit,

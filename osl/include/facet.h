@@ -34,8 +34,9 @@ color facet_weight(Facet facet, float cosine)
 // Snell's law, in the frame of the other side. Past the critical angle the ray grazes.
 vector refracted(vector v, vector m, float cosine, float eta)
 {
-  float beyond = sqrt(max(1 - (1 - cosine * cosine) / (eta * eta), 0));
-  return normalize(v / eta + (beyond - cosine / eta) * m);
+  float ratio = 1 / eta;
+  float beyond = sqrt(max(1 - (1 - cosine * cosine) * ratio * ratio, 0));
+  return normalize(ratio * v + (beyond - cosine * ratio) * m);
 }
 
 // A direction with the density <o, m> / pi: towards a point of the unit sphere that touches the

@@ -97,15 +97,16 @@ Microsurface refraction_carrier(Microsurface surface)
 float ndf_ratio(Microsurface carrier, Microsurface surface, vector m)
 {
   float x = m[0] / surface.alpha_x, y = m[1] / surface.alpha_y;
-  float z2 = m[2] * m[2];
+  float z2 = m[2] * m[2], per_z2 = 1 / z2;
   float exponent = (m[0] * m[0] + m[1] * m[1]) / (carrier.alpha_x * carrier.alpha_y);
   float width = surface.alpha_x * surface.alpha_y / (carrier.alpha_x * carrier.alpha_y);
   float slope2 = x * x + y * y;
   if (exponent > 80 * z2)
     return 0;
   if (surface.beckmann)
-    return width * exp((slope2 - exponent) / z2);
-  return width * exp(-exponent / z2) * (1 + slope2 / z2) * (1 + slope2 / z2);
+    return width * exp((slope2 - exponent) * per_z2);
+  float ggx = 1 + slope2 * per_z2;
+  return width * exp(-exponent * per_z2) * ggx * ggx;
 }
 
 // Its largest value: that of GGX is at the slope sqrt(2 k2 - 1), for the smaller of its alphas.

@@ -34,48 +34,65 @@ float mean_alpha(Microsurface surface)
   return sqrt(surface.alpha_x * surface.alpha_y);
 }
 
-closure color fitted_further_bounces(Frame frame, Microsurface surface, Facet facet, vector wi,
-                                     int max_bounces)
+// What the further bounces of an isotropic metal send, wherever to.
+struct FurtherBounces {
+  float energy;  // of white metal
+  float share;   // bounce 2's in that
+  color second;  // one Fresnel factor for both facets of bounce 2
+  color later;   // one for those of all others
+  color series;  // factor of all bounces after the third
+  float cosine;  // part that is a cosine lobe where the surface is not seen
+};
+
+FurtherBounces isotropic_further_bounces(Microsurface surface, Facet facet, vector wi, int max_bounces)
+{
+  float energy[1], c[5];
+  conductor_energy(surface.beckmann, mean_alpha(surface), wi[2], energy);
+  conductor_colour(surface.beckmann, mean_alpha(surface), wi[2], c);
+  FurtherBounces further;
+  further.energy = energy[0];
+  further.share = c[0];
+  further.second = mean_facet_weight(facet, c[1]);
+  further.later = mean_facet_weight(facet, c[2]);
+  further.series = successive_bounces(further.later, c[3], max_bounces - 2);
+  further.cosine = c[4];
+  return further;
+}
+
+closure color seen_further_bounces(Frame frame, Microsurface surface, vector wi,
+                                   FurtherBounces further)
 {
   float alpha = mean_alpha(surface);
-  float energy[1], c[5], v[22];
-  conductor_energy(surface.beckmann, alpha, wi[2], energy);
-  conductor_colour(surface.beckmann, alpha, wi[2], c);
+  float v[22];
   conductor_shape(surface.beckmann, alpha, wi[2], v);
   color ramp[KNOTS];
   for (int k = 0; k < KNOTS; ++k)
     ramp[k] = color(v[k] + v[KNOTS + k]);
   color fitted = ramp_energy(ramp) + (v[16] + v[17]) * v[18];
-  float scale = energy[0] / fitted[0];
+  float scale = further.energy / fitted[0];
 
-  // One Fresnel factor for both facets of bounce 2, one for those of all others.
-  color second = mean_facet_weight(facet, c[1]);
-  second *= scale * second;
-  color later = scale * later_bounces(mean_facet_weight(facet, c[2]), c[3], max_bounces);
+  color second = scale * further.second * further.second;
+  color later = scale * further.later * further.later * further.later * further.series;
   for (int k = 0; k < KNOTS; ++k)
     ramp[k] = second * v[k] + later * v[KNOTS + k];
   // Cycles picks the first bounce as if it lost nothing.
   return aimed_reflection(frame, surface, wi, second * v[16] + later * v[17], v[19],
                           alpha * v[20], alpha * v[21])
-         + ramp_lobe(frame.z, ramp, 1 / (1 - energy[0]));
+         + ramp_lobe(frame.z, ramp, 1 / (1 - further.energy));
 }
 
 // All bounces of a surface that is not seen, where lobes widen nothing that is not wide already: of
 // the further ones what is a ramp elsewhere is a cosine, and the rest goes the way of the first.
-closure color unseen_conductor(Frame frame, Microsurface surface, Facet facet, vector wi,
-                               int max_bounces)
+closure color unseen_conductor(Frame frame, Microsurface surface, Facet facet,
+                               FurtherBounces further)
 {
-  float alpha = mean_alpha(surface);
-  float energy[1], c[5];
-  conductor_energy(surface.beckmann, alpha, wi[2], energy);
-  conductor_colour(surface.beckmann, alpha, wi[2], c);
-  color second = mean_facet_weight(facet, c[1]), later = mean_facet_weight(facet, c[2]);
   // Over a facet's factor, which the first bounce has as well.
-  color kept = c[0] * second
-               + (1 - c[0]) * later * later * successive_bounces(later, c[3], max_bounces - 2);
-  kept *= energy[0];
-  return whole_reflection(frame, surface, facet, 1 + (1 - c[4]) / (1 - energy[0]) * kept)
-         + (c[4] * second * kept) * diffuse(frame.z);
+  color kept = further.energy
+               * (further.share * further.second
+                  + (1 - further.share) * further.later * further.later * further.series);
+  return whole_reflection(frame, surface, facet,
+                          1 + (1 - further.cosine) / (1 - further.energy) * kept)
+         + (further.cosine * further.second * kept) * diffuse(frame.z);
 }
 
 // Surfaces that are nearly isotropic have the closures of both kinds, so that nothing jumps.
@@ -85,15 +102,18 @@ closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, v
   int bounces = accuracy.max_bounces;
   if (bounces == 1 || further_energy_bound(surface, facet, wi) <= accuracy.tolerance)
     return whole_reflection(frame, surface, facet, 1);
-  float part = min((1 - surface.alpha_y / surface.alpha_x) / LARGEST_BLENDED_ASPECT, 1);
-  if (part < 1 && !is_seen())
-    return unseen_conductor(frame, surface, facet, wi, bounces);
-  closure color lobes = whole_reflection(frame, surface, facet, 1);
-  if (part == 0)
-    return fitted_further_bounces(frame, surface, facet, wi, bounces) + lobes;
-  if (part < 1)
-    lobes = (1 - part) * fitted_further_bounces(frame, surface, facet, wi, bounces) + lobes;
-  return part * anisotropic_further_bounces(frame, surface, facet, wi, bounces) + lobes;
+  float anisotropic = min((1 - surface.alpha_y / surface.alpha_x) / LARGEST_BLENDED_ASPECT, 1);
+  closure color lobes = 0;
+  if (anisotropic < 1) {
+    FurtherBounces further = isotropic_further_bounces(surface, facet, wi, bounces);
+    if (!is_seen())
+      return unseen_conductor(frame, surface, facet, further);
+    lobes = seen_further_bounces(frame, surface, wi, further);
+  }
+  if (anisotropic > 0)
+    lobes = (1 - anisotropic) * lobes
+            + anisotropic * anisotropic_further_bounces(frame, surface, facet, wi, bounces);
+  return whole_reflection(frame, surface, facet, 1) + lobes;
 }
 
 #endif

@@ -6,7 +6,7 @@
 #ifndef MICROBOUNCE_SMITH_H
 #define MICROBOUNCE_SMITH_H
 
-#include "../tables/ierfcx.h"
+#include "../tables/special.h"
 #include "ndf.h"
 
 // The part of sigma that is the same for w and -w: sigma(-w), that is Lambda(w) w.z, for w above.
@@ -27,15 +27,17 @@ float projected_excess(Microsurface surface, vector w)
 
 // A direction from which a vertex receives the path, and what its samples share.
 struct Incidence {
-  vector v;      // minus the direction of travel, unit, local frame
-  float excess;  // sigma(-|v|)
-  float area;    // sigma(v) = integral of <v, m> D(m) dm over the micronormals
+  vector v;          // minus the direction of travel, unit, local frame
+  vector stretched;  // as a surface with alpha 1 would see it, unit
+  float excess;      // sigma(-|v|)
+  float area;        // sigma(v) = integral of <v, m> D(m) dm over the micronormals
 };
 
 Incidence incidence(Microsurface surface, vector v)
 {
   Incidence arrival;
   arrival.v = v;
+  arrival.stretched = normalize(stretch(surface, v));
   arrival.excess = projected_excess(surface, v);
   arrival.area = max(v[2], 0) + arrival.excess;
   return arrival;
@@ -121,32 +123,23 @@ float exit_probability(Microsurface surface, Incidence arrival, vector o)
   return (stays > 0) ? leaves / (leaves + stays) : 1;
 }
 
-// Stirling's remainder log Gamma(x) - (x - 1/2) log x + x - log(2 pi) / 2 at x = 1 / p >= 1, as
-// Stieltjes' continued fraction; within 1.1e-5 at x = 1.
-float stirling_remainder(float p)
-{
-  float p2 = p * p;
-  float tail = 1 + (195 / 371.0) * p2 / (1 + (22999 / 22737.0) * p2 / (1 + 1.5144 * p2));
-  return p / (12 + 0.4 * p2 / (1 + (53 / 210.0) * p2 / tail));
-}
-
 // The chance that a path refracted to `o`, in the frame of the other side, leaves there without
 // another bounce, height-correlated: the height that it has met has density a u^(a-1) with
 // a = |1 + Lambda(v)|, and (1 - u)^Lambda(o) escapes, which makes a B(a, 1 + Lambda(o)) =
-// (x + y - 1) B(x, y) with x = a + 1 and y = 1 + Lambda(o), by Stirling's formula. p = 1 / x and
-// q = 1 / y stay finite where the directions graze.
+// (x + y - 1) B(x, y) with x = a + 1 and y = 1 + Lambda(o), by Stirling's formula. Where the
+// directions graze, x and y end at 1e18; p = 1 / x and q = 1 / y.
 float crossing_probability(Microsurface surface, Incidence arrival, vector o)
 {
   if (o[2] <= 0)
     return 0;
   float depth = abs(arrival.v[2]);
-  float p = max(depth / (arrival.area + depth), 1e-18);
-  float q = max(o[2] / (o[2] + projected_excess(surface, o)), 1e-18);
+  float p = max(depth / (arrival.area + depth), 1e-18), x = 1 / p;
+  float q = max(o[2] / (o[2] + projected_excess(surface, o)), 1e-18), y = 1 / q;
   float both = p + q;
-  float exponent = log1p_over(p / q) / q + log1p_over(q / p) / p - 0.5 * log(M_2PI * both)
+  float exponent = y * log1p_over(p * y) + x * log1p_over(q * x) - 0.5 * log(M_2PI * both)
                    - stirling_remainder(p) - stirling_remainder(q)
                    + stirling_remainder(p * q / both);
-  return min((both - p * q) / (p * q) * exp(-exponent), 1);
+  return min((x + y - 1) * exp(-exponent), 1);
 }
 
 // The chance that a path from `arrival` leaves towards `o`, in the frame of the side that it is on

@@ -4,7 +4,7 @@
 #ifndef MICROBOUNCE_VISIBLE_H
 #define MICROBOUNCE_VISIBLE_H
 
-#include "../tables/ierfcx.h"
+#include "../tables/special.h"
 #include "ndf.h"
 #include "smith.h"
 
@@ -76,7 +76,7 @@ vector beckmann_visible_normal(vector w, float steep, vector u)
 // uniform in [0, 1], GGX needs two.
 vector sample_visible_normal(Microsurface surface, Incidence arrival, vector u)
 {
-  vector w = normalize(stretch(surface, arrival.v));
+  vector w = arrival.stretched;
   vector m;
   if (surface.beckmann)
     m = beckmann_visible_normal(w, (arrival.v[2] > 0) ? arrival.excess / arrival.area : 1, u);

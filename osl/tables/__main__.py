@@ -9,7 +9,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from . import anisotropic, conductor, dielectric, diffuse, header, ierfcx
+from . import anisotropic, conductor, dielectric, diffuse, header, special
 from .run import run
 
 FOLDER = Path(__file__).resolve().parent
@@ -68,11 +68,11 @@ def main() -> int:
     names = arguments.names or list(FITTED)
     if arguments.check:
         stale = [path(name).name for name in names if is_stale(name)]
-        stale += [ierfcx.HEADER.name] if ierfcx.is_stale() else []
+        stale += [special.HEADER.name] if special.is_stale() else []
         if stale:
             print(f"older than their sources: {', '.join(stale)}. Run make tables")
         return 1 if stale else 0
-    ierfcx.HEADER.write_text(ierfcx.header(), encoding="utf-8")
+    special.HEADER.write_text(special.header(), encoding="utf-8")
     for name in names:
         write(name)
         print(f"{path(name).name}: {path(name).stat().st_size / 1024:.0f} KB")
