@@ -201,9 +201,9 @@ FURNACES = (
 # Cycles has one bounce of Beckmann and no more: all metals of the showcase are GGX here.
 SHOWCASE = Scene("showcase", "Showcase of metals, all GGX", "showcase", "CONDUCTOR",
                  UNDER_WIDE_LIGHT, LARGE_TOPS, (("Distribution", "GGX"),), "render",
-                 reference_samples=8192, percentage=25)  # fmt: skip
+                 reference_samples=4096, percentage=25)  # fmt: skip
 MESH = Scene("mesh", "2 million triangles of metal", "mesh", "CONDUCTOR",
-             UNDER_WIDE_LIGHT, LARGE_TOPS, (), "render", reference_samples=4096)  # fmt: skip
+             UNDER_WIDE_LIGHT, LARGE_TOPS, (), "render", reference_samples=2048)  # fmt: skip
 
 _WALK, _FITTED = Variant(WALK, WALK), Variant(FITTED, FITTED)
 # The variants of a sweep of bounces or walks, on scenes that are measured above too.

@@ -15,7 +15,7 @@ from . import pictures
 
 pytestmark = pytest.mark.timing
 
-ROUNDS = 7
+ROUNDS = 5
 PERCENTAGE = 50  # of the showcase's width and height
 CYCLES = "Cycles Multiscatter GGX"
 # Fitted is to cost 1.1 times Cycles' closure at most. Measured on Blender 5.2 and 4.5: 1.13 and
@@ -27,8 +27,9 @@ MOST = {
 }
 MOST_OF_FITTED_GLASS = {0.5: 1.2, 0.7: 1.55}  # by roughness
 MOST_OF_GLASS = 2.5
-# Processor seconds by which the tables of Fitted may delay the start of a render of the showcase.
-LONGEST_DELAY = 1.0
+# What the tables of Fitted may make of the start of a render of the showcase and its first sample,
+# over Single's. Measured: 1.6 to 1.9. Seconds would only tell how fast the machine is.
+MOST_OF_START = 2.2
 
 
 def test_metal(report) -> None:
@@ -42,9 +43,10 @@ def test_metal(report) -> None:
         _report("showcase", times, *pair, None, report)
     starts = {name: times.start(name) for name in ("Single", "Fitted", CYCLES)}
     value = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in starts.items())
-    report("showcase, start of a render and one sample", value, f"Single + {LONGEST_DELAY} s")
+    limit = f"{MOST_OF_START} times Single's"
+    report("showcase, start of a render and one sample", value, limit)
     _hold("showcase", times, MOST, report)
-    assert starts["Fitted"] - starts["Single"] <= LONGEST_DELAY
+    assert starts["Fitted"] <= MOST_OF_START * starts["Single"]
 
 
 @pytest.mark.parametrize("roughness", MOST_OF_FITTED_GLASS)
