@@ -20,7 +20,7 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
 .PHONY: help demo demo-picture analysis-demo test test-all test-5.2 test-4.5 test-window window-pictures lint \
-        format addon assets previews references figures tables scenes bench bench-check clean
+        format addon assets previews references figures tables scenes bench bench-check gains clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' Makefile
@@ -80,6 +80,9 @@ bench: ## Measure what accuracy costs in time (docs/benchmarks; about 35 minutes
 
 bench-check: ## Fail where a quick benchmark's ratios of times grew (about two minutes)
 	@$(any) -m blender_tests.bench --check
+
+gains: ## Measure what each change gained that made the shaders faster (docs/benchmarks/gains.md)
+	@$(any) -m blender_tests.bench.gains
 
 tables: ## Fit the shaders' tables anew (osl/tables; about nine minutes on two cores)
 	@$(any) -m osl.tables

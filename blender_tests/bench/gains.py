@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What each change that made the shaders faster gains: today's shader against itself without it.
 
-`python -m blender_tests.bench.gains` writes docs/benchmarks/gains.md (about ten minutes; the last
-part of `make bench`). A change is undone by a replacement in the source, or by a parameter.
+`make gains` writes docs/benchmarks/gains.md. A change is undone by a replacement in the source, or
+by a parameter.
 """
 
 import statistics
@@ -158,7 +158,7 @@ def page(found: dict[Change, SampleTimes], machine: str) -> str:
     header = ("change", "showcase of", "Quality", "time without it over with it", "gain")
     return wrap(f"""# What each change gained
 
-Measured on {machine} by `python -m blender_tests.bench.gains`, which times today's shader against
+Measured on {machine} by `make gains`, which times today's shader against
 itself without the change: processor time of a sample, median and range of {ROUNDS} rounds in which
 both take turns. Changes by less than {LEAST_TOLD:.0%} cannot be told from none. What stratified
 walks gain in error is on [the page of errors](README.md): One walk there has none.

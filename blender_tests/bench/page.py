@@ -80,7 +80,8 @@ def _introduction(found: Mapping[str, SceneFindings]) -> str:
 Measured on {one.machine}. `make bench` measures anew and writes this page, the plots and the files;
 every number here, and every word that depends on one, is filled in from the data:
 [curves.csv](curves.csv) (error over time), [costs.csv](costs.csv) (time of a sample, bias),
-[results.json](results.json) (all of it).
+[results.json](results.json) (all of it). [What each change gained](gains.md) that made the shaders
+faster is measured by `make gains`.
 
 **Time** is that of the processor, of all threads together, which other work on the machine changes
 less than the time that passes; the files have both. The first render after each switch, which

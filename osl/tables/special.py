@@ -5,8 +5,8 @@ ierfcx(x) = exp(x^2) * integral of erfc from x to infinity = 1/sqrt(pi) - x exp(
 x >= 0, of the Beckmann distribution. Written as that difference it cancels (it falls like
 1/(2 sqrt(pi) x^2)); here it is t^2 P(t) with t = 1 / (1 + x/2).
 
-Stirling's remainder, log Gamma(x) - (x - 1/2) log x + x - log(2 pi) / 2 for x >= 1, is p P(p^2) with
-p = 1 / x.
+Stirling's remainder, log Gamma(x) - (x - 1/2) log x + x - log(2 pi) / 2 for x >= 1, is p P(p^2)
+with p = 1 / x.
 
 P are the polynomials of the least largest relative error. `python -m osl.tables` writes the header.
 """
