@@ -23,6 +23,14 @@ class SampleTimes:
     seconds: dict[str, list[float]]
     starts: dict[str, list[float]]
 
+    def joined(self, other: "SampleTimes") -> "SampleTimes":
+        """Return the rounds of both, which are of the same variants."""
+        both = [
+            {name: mine[name] + theirs[name] for name in mine}
+            for mine, theirs in ((self.seconds, other.seconds), (self.starts, other.starts))
+        ]
+        return SampleTimes(*both)
+
     def median(self, variant: str) -> float:
         """Return the median over the rounds, in seconds per sample."""
         return statistics.median(self.seconds[variant])

@@ -18,6 +18,9 @@ def test_medians_and_ratios_are_taken_round_by_round():
     assert times.median("a") == 2.0
     assert times.ratios("b", "a") == [2.0, 3.0, 0.5]
     assert times.ratio("b", "a") == 2.0
+    more = times.joined(SampleTimes({"a": [1.0], "b": [3.0]}, {"a": [4.0]}))
+    assert more.ratios("b", "a") == [2.0, 3.0, 0.5, 3.0]
+    assert more.start("a") == 2.5
 
 
 @pytest.mark.parametrize("wrong", [{"samples": 0}, {"rounds": 0}])
