@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..core.analysis import Surface
 from ..core.proposal import Proposal, Shown, propose, time_ratio, total_error
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
 from .share import Shares, picture_shares, shown_materials
@@ -18,12 +19,13 @@ class Row:
 
     key  -- finds the node again
     name -- the material's, and the node's where that has a name of its own
+    surface -- what the proposal is made for
     notes -- what could not be told, in short sentences without full stops
     """
 
     key: tuple[str, str, str]
     name: str
-    kind: str
+    surface: Surface
     proposal: Proposal
     notes: tuple[str, ...] = ()
 
@@ -32,7 +34,7 @@ class Row:
         one = self.proposal
         return {
             "material": self.name,
-            "kind": self.kind,
+            "kind": self.surface.kind,
             "share": round(one.share, 4),
             "now": {"quality": one.now.quality, "max_bounces": one.now.max_bounces},
             "then": {"quality": one.then.quality, "max_bounces": one.then.max_bounces},
@@ -125,8 +127,8 @@ def analyse(
     shown = [_shown(one, shares, len(found)) for one in found]
     proposals = propose([one for one, _notes in shown], tolerance)
     rows = [
-        Row(one.key, one.name, one.kind.identifier, proposal, notes)
-        for one, (_, notes), proposal in zip(found, shown, proposals, strict=True)
+        Row(one.key, one.name, shows.surface, proposal, notes)
+        for one, (shows, notes), proposal in zip(found, shown, proposals, strict=True)
     ]
     rows.sort(key=lambda row: (-row.proposal.share, row.name))
     name = context.scene.name
@@ -136,18 +138,24 @@ def analyse(
 def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
     """Set what `report` proposes; return the names of what was set and of what was left.
 
-    What has changed since, so that it is gone or cannot be set, is left.
+    What has changed since is left: what is gone, cannot be set, or would be another surface.
     """
     found = {one.key: one for one in found_nodes(shown_materials(context))}
     done, left = [], []
     for row in report.changes:
         one = found.get(row.key)
-        if one is None or obstacle(one) or read_choice(one) != row.proposal.now:
+        if one is None or not _is_still(row, one):
             left.append(row.name)
             continue
         apply_choice(one, row.proposal.then)
         done.append(row.name)
     return done, left
+
+
+def _is_still(row: Row, found: Found) -> bool:
+    """Return whether what is proposed was proposed for the node as it is."""
+    made_for = (row.surface, row.proposal.now)
+    return not obstacle(found) and (read_surface(found)[0], read_choice(found)) == made_for
 
 
 def _shown(found: Found, shares: Shares, count: int) -> tuple[Shown, tuple[str, ...]]:

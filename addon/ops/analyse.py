@@ -109,21 +109,14 @@ class MICROBOUNCE_OT_apply_analysis(bpy.types.Operator):
         from ..nodes.analyse import apply
 
         done, left = apply(context, last_report(context))
+        names = ", ".join(left)
         if not done:
-            self.report(
-                {"ERROR"},
-                "Nothing was set: the materials are not as they were. Analyse them anew",
-            )
+            text = "Nothing was set. Changed since the analysis: {names}. Analyse again"
+            self.report({"ERROR"}, message(text, names=names))
             return {"CANCELLED"}
         if left:
-            self.report(
-                {"WARNING"},
-                message(
-                    "{count} set; left as they have changed since: {names}",
-                    count=len(done),
-                    names=", ".join(left),
-                ),
-            )
+            text = "{count} set. Changed since the analysis and left: {names}. Analyse again"
+            self.report({"WARNING"}, message(text, count=len(done), names=names))
         else:
             self.report({"INFO"}, message("{count} materials set", count=len(done)))
         return {"FINISHED"}

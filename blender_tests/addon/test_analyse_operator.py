@@ -73,8 +73,21 @@ def test_what_changed_since_is_left(scene) -> None:
     quality("Smooth").default_value = 3
     bpy.ops.microbounce.apply_analysis()
     assert [quality(name).default_value for name in ("Smooth", "Rough")] == [3, 1]
-    with pytest.raises(RuntimeError, match="Analyse them anew"):
+    with pytest.raises(RuntimeError, match="Changed since the analysis: Rough, Smooth. Analyse"):
         bpy.ops.microbounce.apply_analysis()
+
+
+def test_a_proposal_for_another_surface_is_left(scene, capfd) -> None:
+    """What is proposed for smooth metal would be far off once it is rough."""
+    bpy.ops.microbounce.analyse()
+    quality("Smooth").node.inputs["Roughness"].default_value = 1.0
+    assert bpy.ops.microbounce.apply_analysis() == {"FINISHED"}
+    said = capfd.readouterr().out
+    assert "1 set. Changed since the analysis and left: Smooth. Analyse again" in said
+    assert [quality(name).default_value for name in ("Smooth", "Rough")] == [2, 1]
+    bpy.ops.microbounce.analyse()
+    assert bpy.ops.microbounce.apply_analysis() == {"FINISHED"}
+    assert quality("Smooth").default_value == 1
 
 
 def test_what_is_driven_is_told_and_left(scene) -> None:
