@@ -11,7 +11,10 @@ from .files import add_file_argument, open_file
 from .output import CommandError, emit
 
 NAME = "analyse"
-HELP = "Propose the cheapest Quality of every material that keeps the picture within a tolerance."
+HELP = (
+    "Propose the cheapest Quality of every material that keeps the picture within a tolerance. "
+    "Exit code 1: a change is proposed, or no choice is within the tolerance."
+)
 EXAMPLES = ("", "--tolerance 0.02", "--json")
 
 
@@ -33,11 +36,12 @@ def add_tolerance_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the table; 1 where a change is proposed, else 0. Nothing is changed."""
+    """Print the table; 1 where a change is proposed or none is enough, else 0. Nothing is changed.
+    """
     path = open_file(arguments)
     report = analysed(arguments)
     emit(arguments, {"file": str(path)} | report.as_dict(), "\n".join(table(report)))
-    return 1 if report.changes else 0
+    return 1 if report.changes or not report.within_tolerance else 0
 
 
 def analysed(arguments: argparse.Namespace) -> Report:
@@ -64,5 +68,8 @@ def table(report: Report) -> list[str]:
         f"time of a sample {report.time_ratio:.2f} times that of now"
     )
     if not report.within_tolerance:
-        lines.append("No choice of steps is within the tolerance")
+        lines.append(
+            f"No choice of steps is within the tolerance of {percent(report.tolerance)}: "
+            f"{percent(report.error_then)} are left"
+        )
     return lines

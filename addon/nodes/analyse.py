@@ -103,6 +103,7 @@ class Report:
             "part": round(self.part, 4),
             "error_now": round(self.error_now, 5),
             "error_then": round(self.error_then, 5),
+            "within_tolerance": self.within_tolerance,
             "time_ratio": round(self.time_ratio, 3),
             "materials": [row.as_dict() for row in self.rows],
         }

@@ -73,7 +73,7 @@ def test_what_changed_since_is_left(scene) -> None:
     quality("Smooth").default_value = 3
     bpy.ops.microbounce.apply_analysis()
     assert [quality(name).default_value for name in ("Smooth", "Rough")] == [3, 1]
-    with pytest.raises(RuntimeError, match="Changed since the analysis: Rough, Smooth. Analyse"):
+    with pytest.raises(RuntimeError, match="Changed since the analysis: Rough, Smooth"):
         bpy.ops.microbounce.apply_analysis()
 
 
@@ -213,6 +213,20 @@ def test_the_command_applies_to_another_file(file, tmp_path, capfd) -> None:
     assert data["saved"] == str(target)
     assert file.read_bytes() == before
     assert main(["analyse", "--file", str(target)]) == 0
+
+
+def test_the_command_tells_where_no_choice_is_enough(file, tmp_path, capfd) -> None:
+    """Both subcommands: whether a change is proposed or not."""
+    target = tmp_path / "best.blend"
+    arguments = ["--tolerance", "0.0001"]
+    assert main(["apply", "--file", str(file), *arguments, "--save-as", str(target)]) == 1
+    told = capfd.readouterr().out
+    assert "No choice of steps is within the tolerance of 0.01 %: " in told
+    assert " % are left" in told
+    assert main(["analyse", "--file", str(target), *arguments, "--json"]) == 1
+    data = json.loads(capfd.readouterr().out)
+    assert not data["within_tolerance"]
+    assert not any(row["changes"] for row in data["materials"])
 
 
 def test_bad_tolerances(file, capfd) -> None:
