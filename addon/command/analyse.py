@@ -36,8 +36,7 @@ def add_tolerance_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the table; 1 where a change is proposed or none is enough, else 0. Nothing is changed.
-    """
+    """Print the table; 1 where a change is proposed or no choice is enough, else 0."""
     path = open_file(arguments)
     report = analysed(arguments)
     emit(arguments, {"file": str(path)} | report.as_dict(), "\n".join(table(report)))

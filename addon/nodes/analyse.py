@@ -2,6 +2,7 @@
 """Analyses all our materials of a scene, and applies what was proposed."""
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -11,6 +12,10 @@ from ..core.analysis import Surface
 from ..core.proposal import Proposal, Shown, propose, time_ratio, total_error
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
 from .share import Shares, picture_shares, shown_materials
+from .sources import Sources
+
+# Of the time, what may go by until the last image is begun; the rest is for the rays.
+_PART_OF_IMAGES = 0.5
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,7 @@ class Report:
     has_camera -- False where the shares could not be found and all materials weigh the same
     part       -- of the rays that found the shares, 0 to 1: less than 1 where time was over
     empty      -- the part of the picture, 0 to 1, that shows nothing but the world
+    unread     -- names in full of images for which there was no time
     """
 
     scene: str
@@ -63,6 +69,7 @@ class Report:
     has_camera: bool
     part: float = 1.0
     empty: float = 0.0
+    unread: frozenset[str] = frozenset()
 
     @property
     def changes(self) -> tuple[Row, ...]:
@@ -119,13 +126,17 @@ def analyse(
 
     tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
     progress  -- is told the part that is done, from 0 to 1
-    seconds   -- that finding the shares may take, beside what Blender needs to prepare the scene
+    seconds   -- that reading images and finding the shares may take, beside what Blender needs to
+                 prepare the scene and to read the last image
     """
     if not 0.0 < tolerance <= 1.0:
         raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
+    end = time.monotonic() + seconds
     found = found_nodes(shown_materials(context))
-    shares = picture_shares(context, progress, seconds)
-    shown = [_shown(one, shares, len(found)) for one in found]
+    sources = Sources(_PART_OF_IMAGES * seconds)
+    read = [(*read_surface(one, sources), obstacle(one, sources)) for one in found]
+    shares = picture_shares(context, progress, end - time.monotonic(), sources)
+    shown = [_shown(*row, shares, len(found)) for row in zip(found, read, strict=True)]
     proposals = propose([one for one, _notes in shown], tolerance)
     rows = [
         Row(one.key, one.name, shows.surface, proposal, notes)
@@ -133,7 +144,9 @@ def analyse(
     ]
     rows.sort(key=lambda row: (-row.proposal.share, row.name))
     name = context.scene.name
-    return Report(name, tolerance, tuple(rows), shares.has_camera, shares.part, shares.empty)
+    unread = frozenset(sources.unread)
+    camera = shares.has_camera
+    return Report(name, tolerance, tuple(rows), camera, shares.part, shares.empty, unread)
 
 
 def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
@@ -142,10 +155,11 @@ def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[s
     What has changed since is left: what is gone, cannot be set, or would be another surface.
     """
     found = {one.key: one for one in found_nodes(shown_materials(context))}
+    sources = Sources(unread=report.unread)
     done, left = [], []
     for row in report.changes:
         one = found.get(row.key)
-        if one is None or not _is_still(row, one):
+        if one is None or not _is_still(row, one, sources):
             left.append(row.name)
             continue
         apply_choice(one, row.proposal.then)
@@ -153,16 +167,23 @@ def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[s
     return done, left
 
 
-def _is_still(row: Row, found: Found) -> bool:
+def _is_still(row: Row, found: Found, sources: Sources) -> bool:
     """Return whether what is proposed was proposed for the node as it is."""
-    made_for = (row.surface, row.proposal.now)
-    return not obstacle(found) and (read_surface(found)[0], read_choice(found)) == made_for
+    if obstacle(found, sources):
+        return False
+    surface, _notes = read_surface(found, sources)
+    return (surface, read_choice(found)) == (row.surface, row.proposal.now)
 
 
-def _shown(found: Found, shares: Shares, count: int) -> tuple[Shown, tuple[str, ...]]:
-    """Return one of `count` nodes as it is shown, and notes on what could not be told."""
-    surface, notes = read_surface(found)
+def _shown(
+    found: Found, read: tuple[Surface, tuple[str, ...], str], shares: Shares, count: int
+) -> tuple[Shown, tuple[str, ...]]:
+    """Return one of `count` nodes as it is shown, and notes on what could not be told.
+
+    `read` is its surface, the notes on that, and its obstacle.
+    """
+    surface, notes, why = read
     if shares.are_unmet(found.materials):
         notes = (*notes, f"Rays cannot meet all that shows it: its share is at least 1 of {count}")
     share = shares.of(found.materials, count)
-    return Shown(surface, read_choice(found), share, obstacle(found)), notes
+    return Shown(surface, read_choice(found), share, why), notes

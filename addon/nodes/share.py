@@ -16,6 +16,7 @@ from mathutils import Vector
 
 from .passage import Passage, passage
 from .rendered import rendered_materials, rendered_objects
+from .sources import Sources
 
 WIDTH = 64  # rays across the longer side of the picture
 # A surface that no ray meets may still be seen in a rough reflection, or be smaller than a pixel
@@ -68,18 +69,20 @@ def picture_shares(
     context: bpy.types.Context,
     progress: Callable[[float], None] = lambda part: None,
     seconds: float = math.inf,
+    sources: Sources | None = None,
 ) -> Shares:
     """Return the materials' shares of the picture of the scene's camera at the current frame.
 
     progress -- is told the part that is done, from 0 to 1
     seconds  -- when they are over, the rays that were sent until then count
+    sources  -- what was read of images and animation already
     """
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     rays = list(_camera_rays(scene, depsgraph))
     if not rays:
         return Shares({}, has_camera=False)
     hits: Counter[str] = Counter()
-    sight = _Sight(scene, depsgraph)
+    sight = _Sight(scene, depsgraph, sources or Sources(seconds))
     sent, empty, end = 0, 0, time.monotonic() + seconds
     for number in _spread(len(rays)):
         if sent % WIDTH == 0:
@@ -142,8 +145,10 @@ def _hidden_objects(scene: bpy.types.Scene) -> set[bpy.types.Object]:
 class _Sight:
     """Follows rays through the scene; what materials and curves are is found once."""
 
-    def __init__(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        self.scene, self.depsgraph = scene, depsgraph
+    def __init__(
+        self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, sources: Sources
+    ) -> None:
+        self.scene, self.depsgraph, self.sources = scene, depsgraph, sources
         self.hidden = _hidden_objects(scene)
         self.passages: dict[str, Passage] = {}
         self.indices: dict[str, list[int]] = {}
@@ -182,7 +187,7 @@ class _Sight:
     def _passage(self, material: bpy.types.Material) -> Passage:
         name = material.name_full
         if name not in self.passages:
-            self.passages[name] = passage(material)
+            self.passages[name] = passage(material, self.sources)
         return self.passages[name]
 
     def _material(self, thing: bpy.types.Object, face: int) -> bpy.types.Material | None:
