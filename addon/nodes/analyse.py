@@ -10,8 +10,9 @@ import bpy
 
 from ..core.analysis import Surface
 from ..core.proposal import Proposal, Shown, propose, time_ratio, total_error
+from ..core.run import Pieces, done_at_once
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
-from .share import Shares, picture_shares, shown_materials
+from .share import Shares, share_pieces, shown_materials
 from .sources import Sources
 
 # Of the time, what may go by until the last image is begun; the rest is for the rays.
@@ -129,13 +130,23 @@ def analyse(
     seconds   -- that reading images and finding the shares may take, beside what Blender needs to
                  prepare the scene and to read the last image
     """
+    return done_at_once(analysis_pieces(context, tolerance, seconds), progress)
+
+
+def analysis_pieces(
+    context: bpy.types.Context, tolerance: float, seconds: float = math.inf
+) -> Pieces[Report]:
+    """Do the work of analyse(); nothing of the scene may change meanwhile."""
     if not 0.0 < tolerance <= 1.0:
         raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
     end = time.monotonic() + seconds
     found = found_nodes(shown_materials(context))
     sources = Sources(_PART_OF_IMAGES * seconds)
-    read = [(*read_surface(one, sources), obstacle(one, sources)) for one in found]
-    shares = picture_shares(context, progress, end - time.monotonic(), sources)
+    read = []
+    for one in found:
+        yield 0.0
+        read.append((*read_surface(one, sources), obstacle(one, sources)))
+    shares = yield from share_pieces(context, end - time.monotonic(), sources)
     shown = [_shown(*row, shares, len(found)) for row in zip(found, read, strict=True)]
     proposals = propose([one for one, _notes in shown], tolerance)
     rows = [

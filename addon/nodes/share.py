@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Vector
 
+from ..core.run import Pieces, done_at_once
 from .passage import Passage, passage
 from .rendered import rendered_materials, rendered_objects
 from .sources import Sources
@@ -69,24 +70,27 @@ def picture_shares(
     context: bpy.types.Context,
     progress: Callable[[float], None] = lambda part: None,
     seconds: float = math.inf,
-    sources: Sources | None = None,
 ) -> Shares:
     """Return the materials' shares of the picture of the scene's camera at the current frame.
 
     progress -- is told the part that is done, from 0 to 1
     seconds  -- when they are over, the rays that were sent until then count
-    sources  -- what was read of images and animation already
     """
+    return done_at_once(share_pieces(context, seconds, Sources(seconds)), progress)
+
+
+def share_pieces(context: bpy.types.Context, seconds: float, sources: Sources) -> Pieces[Shares]:
+    """Do the work of picture_shares(); nothing of the scene may change meanwhile."""
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     rays = list(_camera_rays(scene, depsgraph))
     if not rays:
         return Shares({}, has_camera=False)
     hits: Counter[str] = Counter()
-    sight = _Sight(scene, depsgraph, sources or Sources(seconds))
+    sight = _Sight(scene, depsgraph, sources)
     sent, empty, end = 0, 0, time.monotonic() + seconds
     for number in _spread(len(rays)):
         if sent % WIDTH == 0:
-            progress(sent / len(rays))
+            yield sent / len(rays)
         if sent and time.monotonic() > end:
             break
         met = {material.name_full for material in sight.along(*rays[number])}

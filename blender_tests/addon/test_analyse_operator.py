@@ -11,6 +11,7 @@ from addon.command.main import main
 from addon.nodes.group import new_material
 from addon.ops.analyse import last_report
 
+from .analysis_support import image, textured
 from .support import small_scene
 
 pytestmark = pytest.mark.usefixtures("compiled_once")
@@ -48,6 +49,35 @@ def test_analysing_changes_nothing(scene) -> None:
     assert [quality(name).default_value for name in ("Smooth", "Rough")] == [2, 2]
     assert 0.0 < report.time_ratio < 1.0
     assert all(0.01 < row.proposal.share < 0.5 for row in report.rows)
+
+
+def test_it_can_be_ended_before_its_end(scene) -> None:
+    """As Esc does; where there is no window it is waited for."""
+    from addon.nodes.analyse import analysis_pieces
+
+    pieces = analysis_pieces(bpy.context, 0.01)
+    assert [next(pieces) for _ in range(4)] == [0.0, 0.0, 0.0, 1 / 64]
+    pieces.close()
+    assert bpy.ops.microbounce.analyse("INVOKE_DEFAULT") == {"FINISHED"}
+    assert len(last_report(bpy.context).changes) == 2
+
+
+def test_images_without_time_count_as_anything(scene, monkeypatch) -> None:
+    """What is proposed so can be applied all the same."""
+    from addon.ops import analyse
+
+    made = image(0.1, 0.2)
+    for name in ("Smooth", "Rough"):
+        node = quality(name).node
+        tree = node.id_data
+        tree.links.new(textured(tree, made), node.inputs["Roughness"])
+    monkeypatch.setattr(analyse, "_SECONDS", 0.0)
+    bpy.ops.microbounce.analyse()
+    for row in last_report(bpy.context).rows:
+        assert row.notes[0].endswith("there was no time to read the image 'Slope'")
+        assert row.proposal.then.quality == "Fitted"
+    bpy.ops.microbounce.apply_analysis()
+    assert [quality(name).default_value for name in ("Smooth", "Rough")] == [1, 1]
 
 
 def test_applying_and_undoing(scene) -> None:
