@@ -6,6 +6,7 @@ import argparse
 import bpy
 
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..core.proposal import Option
 from ..nodes.analyse import Report, analyse
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
@@ -62,6 +63,7 @@ def table(report: Report) -> list[str]:
         lines.append(f"{row.name} ({percent(one.share)} of the picture): {change}")
         lines.append(f"    off by {percent(one.error_now)}, then {percent(one.error_then)}")
         lines += [f"    {text}" for text in (one.reason, *row.notes)]
+        lines += [f"        {_step(option)}" for option in one.steps]
     lines.append(
         f"Picture: off by {percent(report.error_now)}, then {percent(report.error_then)}; "
         f"time of a sample {report.time_ratio:.2f} times that of now"
@@ -72,3 +74,10 @@ def table(report: Report) -> list[str]:
             f"{percent(report.error_then)} are left"
         )
     return lines
+
+
+def _step(option: Option) -> str:
+    """Return the line of a Quality, in columns."""
+    columns = (option.error, "off"), (option.loss, "of its light lost")
+    texts = [f"{percent(number):>12} {what}" for number, what in columns]
+    return f"{option.choice!s:20}{''.join(texts)}, time {option.cost:5.2f}"

@@ -4,12 +4,13 @@
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import bpy
 
 from ..core.analysis import Surface
-from ..core.proposal import Proposal, Shown, propose, time_ratio, total_error
+from ..core.picture_error import picture_error
+from ..core.proposal import Option, Proposal, Shown, propose, time_ratio, total_error
 from ..core.run import Pieces, done_at_once
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
 from .share import Shares, share_pieces, shown_materials
@@ -42,16 +43,30 @@ class Row:
             "material": self.name,
             "kind": self.surface.kind,
             "share": round(one.share, 4),
-            "now": {"quality": one.now.quality, "max_bounces": one.now.max_bounces},
-            "then": {"quality": one.then.quality, "max_bounces": one.then.max_bounces},
+            "now": asdict(one.now),
+            "then": asdict(one.then),
             "error_now": round(one.error_now, 5),
             "error_then": round(one.error_then, 5),
             "energy_lost_now": round(one.loss_now, 5),
             "energy_lost_then": round(one.loss_then, 5),
+            "steps": [_step(option, one.share) for option in one.steps],
             "changes": one.changes,
             "reason": one.reason,
             "notes": list(self.notes),
         }
+
+
+def _step(option: Option, share: float) -> dict[str, object]:
+    """Return what is predicted of a Quality, as JSON takes it.
+
+    `picture_error` is what its error alone makes of the picture's, `time` its cost.
+    """
+    return asdict(option.choice) | {
+        "error": round(option.error, 5),
+        "picture_error": round(picture_error([(share, option.error)]), 5),
+        "energy_lost": round(option.loss, 5),
+        "time": round(option.cost, 3),
+    }
 
 
 @dataclass(frozen=True)

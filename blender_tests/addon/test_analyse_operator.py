@@ -230,8 +230,20 @@ def test_the_command_analyses(file, capfd) -> None:
         "Smooth": "Single",
         "Rough": "Fitted",
     }
+    rough = next(row for row in data["materials"] if row["material"] == "Rough")
+    assert [step["quality"] for step in rough["steps"]] == ["Single", "Fitted", "Walk", "Exact"]
+    single, fitted = rough["steps"][:2]
+    assert fitted["error"] == rough["error_then"]
+    assert single["picture_error"] == pytest.approx(
+        single["error"] * rough["share"] ** 0.5, abs=2e-4
+    )
+    assert single["energy_lost"] > 0.3
+    assert fitted["time"] > 0.9 * single["time"]
     assert main(["analyse", "--file", str(file)]) == 1
-    assert "further bounces carry" in capfd.readouterr().out
+    told = capfd.readouterr().out
+    assert "further bounces carry" in told
+    for step in ("Single", "Fitted", "Walk", "Exact"):
+        assert told.count(f"\n        {step}") == 2
 
 
 def test_the_command_applies_to_another_file(file, tmp_path, capfd) -> None:
