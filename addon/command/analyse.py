@@ -78,6 +78,7 @@ def table(report: Report) -> list[str]:
 
 def _step(option: Option) -> str:
     """Return the line of a Quality, in columns."""
-    columns = (option.error, "off"), (option.loss, "of its light lost")
-    texts = [f"{percent(number):>12} {what}" for number, what in columns]
-    return f"{option.choice!s:20}{''.join(texts)}, time {option.cost:5.2f}"
+    error, loss = percent(option.error), percent(option.loss)
+    return (
+        f"{option.choice!s:20}{error:>13} off {loss:>13} of its light lost, time {option.cost:.2f}"
+    )
