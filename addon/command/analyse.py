@@ -6,12 +6,16 @@ import argparse
 import bpy
 
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..core.proposal import Option
 from ..nodes.analyse import Report, analyse
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
 
 NAME = "analyse"
-HELP = "Propose the cheapest Quality of every material that keeps the picture within a tolerance."
+HELP = (
+    "Propose the cheapest Quality of every material that keeps the picture within a tolerance. "
+    "Exit code 1: a change is proposed, or no choice is within the tolerance."
+)
 EXAMPLES = ("", "--tolerance 0.02", "--json")
 
 
@@ -33,11 +37,11 @@ def add_tolerance_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the table; 1 where a change is proposed, else 0. Nothing is changed."""
+    """Print the table; 1 where a change is proposed or no choice is enough, else 0."""
     path = open_file(arguments)
     report = analysed(arguments)
     emit(arguments, {"file": str(path)} | report.as_dict(), "\n".join(table(report)))
-    return 1 if report.changes else 0
+    return 1 if report.changes or not report.within_tolerance else 0
 
 
 def analysed(arguments: argparse.Namespace) -> Report:
@@ -59,10 +63,22 @@ def table(report: Report) -> list[str]:
         lines.append(f"{row.name} ({percent(one.share)} of the picture): {change}")
         lines.append(f"    off by {percent(one.error_now)}, then {percent(one.error_then)}")
         lines += [f"    {text}" for text in (one.reason, *row.notes)]
+        lines += [f"        {_step(option)}" for option in one.steps]
     lines.append(
         f"Picture: off by {percent(report.error_now)}, then {percent(report.error_then)}; "
         f"time of a sample {report.time_ratio:.2f} times that of now"
     )
     if not report.within_tolerance:
-        lines.append("No choice of steps is within the tolerance")
+        lines.append(
+            f"No choice of steps is within the tolerance of {percent(report.tolerance)}: "
+            f"{percent(report.error_then)} are left"
+        )
     return lines
+
+
+def _step(option: Option) -> str:
+    """Return the line of a Quality, in columns."""
+    error, loss = percent(option.error), percent(option.loss)
+    return (
+        f"{option.choice!s:20}{error:>13} off {loss:>13} of its light lost, time {option.cost:.2f}"
+    )

@@ -11,7 +11,10 @@ from .files import add_file_argument, add_save_arguments, check_target, open_fil
 from .output import emit
 
 NAME = "apply"
-HELP = "Set the Quality and Max Bounces that `analyse` proposes."
+HELP = (
+    "Set the Quality and Max Bounces that `analyse` proposes. "
+    "Exit code 1: the picture is not within the tolerance even so, or something could not be set."
+)
 EXAMPLES = ("--save-as FAST.blend", "--tolerance 0.02 --save")
 
 
@@ -23,13 +26,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Set the values, print the table, and save where that was asked; 0."""
+    """Set the values, print the table, and save where that was asked.
+
+    It is 1 where the picture is not within the tolerance even so, or something was left, else 0.
+    """
     check_target(arguments)
     path = open_file(arguments)
     report = analysed(arguments)
     done, left = apply(bpy.context, report)
     target = save_file(arguments)
-    lines = [*table(report), f"{len(done)} materials set", saved(target)]
+    lines = [*table(report), f"{len(done)} materials set"]
+    lines += [f"Changed since the analysis and left: {', '.join(left)}"] if left else []
+    lines.append(saved(target))
     data = {"file": str(path), "saved": target, "set": done, "left": left} | report.as_dict()
     emit(arguments, data, "\n".join(lines))
-    return 0
+    return 0 if report.within_tolerance and not left else 1

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .analysis import (
+    QUALITIES,
     Choice,
     Surface,
     fewest_bounces,
@@ -46,11 +47,13 @@ class Option:
 
     error -- image L2 of its own light
     cost  -- of a pixel's sample, that of metal of alpha 0.25 in Single being 1
+    loss  -- the part of its light, as energy, that is left out
     """
 
     choice: Choice
     error: float
     cost: float
+    loss: float
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,8 @@ class Proposal:
     """What is proposed for a surface, and why.
 
     now, then             -- what is set and what is proposed
-    error_now, error_then -- predicted, as in Option; and so are the costs
-    loss_now, loss_then   -- the part of its light, as energy, that is left out
+    error_now, error_then -- predicted, as in Option; and so are the costs and losses
+    steps                 -- what is predicted of every Quality, with as many bounces as it takes
     """
 
     now: Choice
@@ -72,6 +75,7 @@ class Proposal:
     loss_now: float
     loss_then: float
     reason: str
+    steps: tuple[Option, ...]
 
     @property
     def changes(self) -> bool:
@@ -85,7 +89,8 @@ def propose(shown: Sequence[Shown], tolerance: float) -> list[Proposal]:
     Where they cannot be, all take their nearest step that is worth its cost. Exact is never
     proposed, and elsewhere than in Walk, where fewer bounces save time, Max Bounces is only raised.
     """
-    everything = [_options(one, len(shown), tolerance) for one in shown]
+    ladders = [_ladder(one, len(shown), tolerance) for one in shown]
+    everything = [_options(*row) for row in zip(shown, ladders, strict=True)]
     worth = [_worth(options) for options in everything]
     chosen = [options[0] for options in worth]
     squared = sum(one.share * option.error**2 for one, option in zip(shown, chosen, strict=True))
@@ -95,7 +100,7 @@ def propose(shown: Sequence[Shown], tolerance: float) -> list[Proposal]:
             break
         squared -= shown[i].share * (chosen[i].error ** 2 - to.error**2)
         chosen[i] = to
-    return [_proposal(*row) for row in zip(shown, everything, chosen, strict=True)]
+    return [_proposal(*row) for row in zip(shown, ladders, everything, chosen, strict=True)]
 
 
 def total_error(proposals: Sequence[Proposal]) -> tuple[float, float]:
@@ -121,22 +126,32 @@ def time_ratio(proposals: Sequence[Proposal], empty: float = 0.0) -> float:
     return then / now if now > 0.0 else 1.0
 
 
-def _options(one: Shown, count: int, tolerance: float) -> list[Option]:
-    """Return what can be chosen: what is set alone where it must stay."""
+def _ladder(one: Shown, count: int, tolerance: float) -> tuple[Option, ...]:
+    """Return what is predicted of every Quality."""
     surface, now = one.surface, one.now
-    choices = [now]
-    if not one.obstacle:
-        steps = [step for step in STEPS if step != "Fitted" or surface.fitted]
-        if now.quality == "Fitted" and not surface.fitted:
-            steps[-1] = "Fitted"  # it takes Walk by itself
-        room = _PART_OF_BOUNCES * equal_part(one.share, count, tolerance)
-        fewest = fewest_bounces(surface, room)
-        choices = [Choice(step, _bounces(surface, step, now, fewest)) for step in steps]
-    return [_option(surface, choice) for choice in choices]
+    room = _PART_OF_BOUNCES * equal_part(one.share, count, tolerance)
+    fewest = fewest_bounces(surface, room)
+    choices = [Choice(step, _bounces(surface, step, now, fewest)) for step in QUALITIES]
+    return tuple(_option(surface, choice) for choice in choices)
+
+
+def _options(one: Shown, ladder: Sequence[Option]) -> list[Option]:
+    """Return what can be chosen: what is set alone where it must stay."""
+    if one.obstacle:
+        return [_option(one.surface, one.now)]
+    steps = [step for step in STEPS if step != "Fitted" or one.surface.fitted]
+    if one.now.quality == "Fitted" and not one.surface.fitted:
+        steps[-1] = "Fitted"  # it takes Walk by itself
+    return [option for option in ladder if option.choice.quality in steps]
 
 
 def _option(surface: Surface, choice: Choice) -> Option:
-    return Option(choice, predicted_error(surface, choice), predicted_cost(surface, choice))
+    return Option(
+        choice,
+        predicted_error(surface, choice),
+        predicted_cost(surface, choice),
+        predicted_loss(surface, choice),
+    )
 
 
 def _bounces(surface: Surface, step: str, now: Choice, fewest: int) -> int:
@@ -175,7 +190,9 @@ def _upgrades(options: Sequence[Option]) -> list[tuple[float, Option]]:
     return found
 
 
-def _proposal(one: Shown, options: Sequence[Option], then: Option) -> Proposal:
+def _proposal(
+    one: Shown, ladder: tuple[Option, ...], options: Sequence[Option], then: Option
+) -> Proposal:
     now = _option(one.surface, one.now)
     return Proposal(
         one.now,
@@ -185,9 +202,10 @@ def _proposal(one: Shown, options: Sequence[Option], then: Option) -> Proposal:
         then.error,
         now.cost,
         then.cost,
-        predicted_loss(one.surface, one.now),
-        predicted_loss(one.surface, then.choice),
+        now.loss,
+        then.loss,
         f"{one.obstacle}: it stays" if one.obstacle else _reason(one.surface, options, then),
+        ladder,
     )
 
 
@@ -195,16 +213,15 @@ def _reason(surface: Surface, options: Sequence[Option], then: Option) -> str:
     low, high = surface.alphas
     alpha = f"alpha {high:.2g}" if high - low < 0.005 else f"alpha {low:.2g} to {high:.2g}"
     if then.choice.quality == "Single":
-        loss = predicted_loss(surface, then.choice)
-        return f"{alpha}: further bounces carry {percent(loss)} of its light"
-    cheaper = [_shortfall(surface, option) for option in options if option.cost < then.cost]
+        return f"{alpha}: further bounces carry {percent(then.loss)} of its light"
+    cheaper = [_shortfall(option) for option in options if option.cost < then.cost]
     nearest = all(option.error >= then.error for option in options)
     least = "no step costs less or is nearer" if nearest else "no step costs less"
     return f"{alpha}: {', '.join(cheaper) or least}"
 
 
-def _shortfall(surface: Surface, option: Option) -> str:
+def _shortfall(option: Option) -> str:
     text = f"{option.choice.quality} would be {percent(option.error)} off"
     if option.choice.quality != "Single":
         return text
-    return f"{text} and lose {percent(predicted_loss(surface, option.choice))} of its light"
+    return f"{text} and lose {percent(option.loss)} of its light"

@@ -2,14 +2,22 @@
 """Analyses all our materials of a scene, and applies what was proposed."""
 
 import math
+import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import bpy
 
-from ..core.proposal import Proposal, Shown, propose, time_ratio, total_error
+from ..core.analysis import Surface
+from ..core.picture_error import picture_error
+from ..core.proposal import Option, Proposal, Shown, propose, time_ratio, total_error
+from ..core.run import Pieces, done_at_once
 from .inspect import Found, apply_choice, found_nodes, obstacle, read_choice, read_surface
-from .share import Shares, picture_shares, shown_materials
+from .share import Shares, share_pieces, shown_materials
+from .sources import Sources
+
+# Of the time, what may go by until the last image is begun; the rest is for the rays.
+_PART_OF_IMAGES = 0.5
 
 
 @dataclass(frozen=True)
@@ -18,12 +26,13 @@ class Row:
 
     key  -- finds the node again
     name -- the material's, and the node's where that has a name of its own
+    surface -- what the proposal is made for
     notes -- what could not be told, in short sentences without full stops
     """
 
     key: tuple[str, str, str]
     name: str
-    kind: str
+    surface: Surface
     proposal: Proposal
     notes: tuple[str, ...] = ()
 
@@ -32,18 +41,32 @@ class Row:
         one = self.proposal
         return {
             "material": self.name,
-            "kind": self.kind,
+            "kind": self.surface.kind,
             "share": round(one.share, 4),
-            "now": {"quality": one.now.quality, "max_bounces": one.now.max_bounces},
-            "then": {"quality": one.then.quality, "max_bounces": one.then.max_bounces},
+            "now": asdict(one.now),
+            "then": asdict(one.then),
             "error_now": round(one.error_now, 5),
             "error_then": round(one.error_then, 5),
             "energy_lost_now": round(one.loss_now, 5),
             "energy_lost_then": round(one.loss_then, 5),
+            "steps": [_step(option, one.share) for option in one.steps],
             "changes": one.changes,
             "reason": one.reason,
             "notes": list(self.notes),
         }
+
+
+def _step(option: Option, share: float) -> dict[str, object]:
+    """Return what is predicted of a Quality, as JSON takes it.
+
+    `picture_error` is what its error alone makes of the picture's, `time` its cost.
+    """
+    return asdict(option.choice) | {
+        "error": round(option.error, 5),
+        "picture_error": round(picture_error([(share, option.error)]), 5),
+        "energy_lost": round(option.loss, 5),
+        "time": round(option.cost, 3),
+    }
 
 
 @dataclass(frozen=True)
@@ -53,6 +76,7 @@ class Report:
     has_camera -- False where the shares could not be found and all materials weigh the same
     part       -- of the rays that found the shares, 0 to 1: less than 1 where time was over
     empty      -- the part of the picture, 0 to 1, that shows nothing but the world
+    unread     -- names in full of images for which there was no time
     """
 
     scene: str
@@ -61,6 +85,7 @@ class Report:
     has_camera: bool
     part: float = 1.0
     empty: float = 0.0
+    unread: frozenset[str] = frozenset()
 
     @property
     def changes(self) -> tuple[Row, ...]:
@@ -101,6 +126,7 @@ class Report:
             "part": round(self.part, 4),
             "error_now": round(self.error_now, 5),
             "error_then": round(self.error_then, 5),
+            "within_tolerance": self.within_tolerance,
             "time_ratio": round(self.time_ratio, 3),
             "materials": [row.as_dict() for row in self.rows],
         }
@@ -116,33 +142,50 @@ def analyse(
 
     tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
     progress  -- is told the part that is done, from 0 to 1
-    seconds   -- that finding the shares may take, beside what Blender needs to prepare the scene
+    seconds   -- that reading images and finding the shares may take, beside what Blender needs to
+                 prepare the scene and to read the last image
     """
+    return done_at_once(analysis_pieces(context, tolerance, seconds), progress)
+
+
+def analysis_pieces(
+    context: bpy.types.Context, tolerance: float, seconds: float = math.inf
+) -> Pieces[Report]:
+    """Do the work of analyse(); nothing of the scene may change meanwhile."""
     if not 0.0 < tolerance <= 1.0:
         raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
+    end = time.monotonic() + seconds
     found = found_nodes(shown_materials(context))
-    shares = picture_shares(context, progress, seconds)
-    shown = [_shown(one, shares, len(found)) for one in found]
+    sources = Sources(_PART_OF_IMAGES * seconds)
+    read = []
+    for one in found:
+        yield 0.0
+        read.append((*read_surface(one, sources), obstacle(one, sources)))
+    shares = yield from share_pieces(context, end - time.monotonic(), sources)
+    shown = [_shown(*row, shares, len(found)) for row in zip(found, read, strict=True)]
     proposals = propose([one for one, _notes in shown], tolerance)
     rows = [
-        Row(one.key, one.name, one.kind.identifier, proposal, notes)
-        for one, (_, notes), proposal in zip(found, shown, proposals, strict=True)
+        Row(one.key, one.name, shows.surface, proposal, notes)
+        for one, (shows, notes), proposal in zip(found, shown, proposals, strict=True)
     ]
     rows.sort(key=lambda row: (-row.proposal.share, row.name))
     name = context.scene.name
-    return Report(name, tolerance, tuple(rows), shares.has_camera, shares.part, shares.empty)
+    unread = frozenset(sources.unread)
+    camera = shares.has_camera
+    return Report(name, tolerance, tuple(rows), camera, shares.part, shares.empty, unread)
 
 
 def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
     """Set what `report` proposes; return the names of what was set and of what was left.
 
-    What has changed since, so that it is gone or cannot be set, is left.
+    What has changed since is left: what is gone, cannot be set, or would be another surface.
     """
     found = {one.key: one for one in found_nodes(shown_materials(context))}
+    sources = Sources(unread=report.unread)
     done, left = [], []
     for row in report.changes:
         one = found.get(row.key)
-        if one is None or obstacle(one) or read_choice(one) != row.proposal.now:
+        if one is None or not _is_still(row, one, sources):
             left.append(row.name)
             continue
         apply_choice(one, row.proposal.then)
@@ -150,10 +193,23 @@ def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[s
     return done, left
 
 
-def _shown(found: Found, shares: Shares, count: int) -> tuple[Shown, tuple[str, ...]]:
-    """Return one of `count` nodes as it is shown, and notes on what could not be told."""
-    surface, notes = read_surface(found)
+def _is_still(row: Row, found: Found, sources: Sources) -> bool:
+    """Return whether what is proposed was proposed for the node as it is."""
+    if obstacle(found, sources):
+        return False
+    surface, _notes = read_surface(found, sources)
+    return (surface, read_choice(found)) == (row.surface, row.proposal.now)
+
+
+def _shown(
+    found: Found, read: tuple[Surface, tuple[str, ...], str], shares: Shares, count: int
+) -> tuple[Shown, tuple[str, ...]]:
+    """Return one of `count` nodes as it is shown, and notes on what could not be told.
+
+    `read` is its surface, the notes on that, and its obstacle.
+    """
+    surface, notes, why = read
     if shares.are_unmet(found.materials):
         notes = (*notes, f"Rays cannot meet all that shows it: its share is at least 1 of {count}")
     share = shares.of(found.materials, count)
-    return Shown(surface, read_choice(found), share, obstacle(found)), notes
+    return Shown(surface, read_choice(found), share, why), notes

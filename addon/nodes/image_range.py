@@ -3,36 +3,52 @@
 
 import bpy
 
+from ..core.intervals import Interval
+
 # Larger images are not read: their pixels would take more than 268 MB.
 _MOST_PIXELS = 1 << 24
 _RAW = ("Non-Color", "Raw", "Generic Data", "Linear", "Linear Rec.709", "scene_linear")
 
 
-def image_range(image: bpy.types.Image | None) -> tuple[tuple[float, float], ...] | None:
-    """Return the ranges of red, green, blue and alpha, None where they cannot be told.
+# Of red, green, blue and alpha.
+ImageRange = tuple[Interval, ...]
 
-    That is where it is missing, too large, a sequence, a movie or tiled, or in a colour space that
-    is neither sRGB nor linear. An image that was not in memory is not kept there.
+
+class UnreadableImageError(Exception):
+    """The ranges of an image cannot be told; the message is a clause that names it and says why."""
+
+
+def image_range(image: bpy.types.Image) -> ImageRange:
+    """Return the ranges of red, green, blue and alpha. An image that was not in memory is not kept.
+
+    Raises UnreadableImageError where it is missing, too large, a sequence, a movie or tiled, or in
+    a colour space that is neither sRGB nor linear.
     """
-    if image is None or image.source not in ("FILE", "GENERATED"):
-        return None
+    if image.source not in ("FILE", "GENERATED"):
+        raise UnreadableImageError(f"the image '{image.name}' is {image.source.lower()}")
     loaded = image.has_data
-    found = _read(image)
-    if not loaded:
-        image.buffers_free()
-    return found
+    try:
+        return _read(image)
+    finally:
+        if not loaded:
+            image.buffers_free()
 
 
-def _read(image: bpy.types.Image) -> tuple[tuple[float, float], ...] | None:
+def _read(image: bpy.types.Image) -> ImageRange:
     import numpy as np
 
+    name = f"the image '{image.name}'"
     width, height = image.size
     channels, encoded = image.channels, not image.is_float
-    if not 0 < width * height <= _MOST_PIXELS or channels not in (1, 3, 4):
-        return None
+    if not width * height:
+        raise UnreadableImageError(f"the file of {name} is missing or cannot be read")
+    if width * height > _MOST_PIXELS:
+        raise UnreadableImageError(f"{name} is too large to be read ({width} x {height})")
+    if channels not in (1, 3, 4):
+        raise UnreadableImageError(f"{name} has {channels} channels")
     space = image.colorspace_settings.name
     if space not in (*_RAW, "sRGB"):
-        return None
+        raise UnreadableImageError(f"{name} is in the colour space {space}")
     pixels = np.empty(width * height * channels, dtype=np.float32)
     image.pixels.foreach_get(pixels)
     pixels = pixels.reshape(-1, channels)

@@ -15,6 +15,7 @@ from ..core.reflectance import mean_of_index, mean_of_tint
 from .group import KIND_KEY
 from .ranges import Path, Range, input_range
 from .reached import reached_nodes
+from .sources import ANIMATED, Sources
 
 
 @dataclass
@@ -70,13 +71,14 @@ def found_nodes(materials: Iterable[bpy.types.Material]) -> list[Found]:
     return list(found.values())
 
 
-def read_surface(found: Found) -> tuple[Surface, tuple[str, ...]]:
+def read_surface(found: Found, sources: Sources | None = None) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface with all that its inputs can take, and notes on what cannot be told."""
+    sources = sources or Sources()
     notes: list[str] = []
     kind = found.kind
 
     def read(identifier: str) -> Range:
-        return _legal_range(found, kind.by_identifier[identifier], notes)
+        return _legal_range(found, kind.by_identifier[identifier], sources, notes)
 
     def number(identifier: str) -> Interval:
         return read(identifier)[0]
@@ -101,8 +103,9 @@ def read_choice(found: Found) -> Choice:
     return Choice(QUALITIES[quality], max(_set_value(found, "MaxBounces", MOST_BOUNCES), 1))
 
 
-def obstacle(found: Found) -> str:
+def obstacle(found: Found, sources: Sources | None = None) -> str:
     """Return why nothing can be proposed for the node or set on it, "" where it can."""
+    sources = sources or Sources()
     owners = (found.tree, *(() if found.is_shared else found.materials))
     if any(owner.library for owner in owners):
         return "It is linked from a library"
@@ -115,10 +118,10 @@ def obstacle(found: Found) -> str:
             return f"Its node group is of another version and has no {label}"
         if socket.is_linked:
             return f"{label} is linked"
-        if socket.path_from_id("default_value") in _animated(found.tree):
+        if sources.animates(socket):
             return f"{label} has a driver or is animated"
     only = found.kind.by_identifier["BounceOnly"]
-    if _legal_range(found, only, [])[0] != (0.0, 0.0):
+    if _legal_range(found, only, sources, [])[0] != (0.0, 0.0):
         return f"{only.label} shows one bounce, for study"
     return ""
 
@@ -131,17 +134,26 @@ def apply_choice(found: Found, choice: Choice) -> None:
     found.node.inputs[bounces.label].default_value = bounces.checked(choice.max_bounces)
 
 
-def _legal_range(found: Found, parameter: Parameter, notes: list[str]) -> Range:
+def _legal_range(found: Found, parameter: Parameter, sources: Sources, notes: list[str]) -> Range:
     """Return the range of an input over all ways to the node, within what is legal."""
     socket = found.node.inputs.get(parameter.label)
     if socket is None:
         value = parameter.default
         return tuple((v, v) for v in (value if parameter.is_vector else (value,)))
-    ways = [input_range(socket, path) for path in found.paths]
-    low, high = parameter.legal
-    if any(not math.isfinite(end) for way in ways for part in way for end in part):
-        notes.append(f"{parameter.label} is unknown, taken as {low:g} to {high:g}")
-    return tuple(clamped(hull(parts), low, high) for parts in zip(*ways, strict=True))
+    sources.causes.clear()
+    ways = [input_range(socket, path, sources) for path in found.paths]
+    legal = tuple(clamped(hull(parts), *parameter.legal) for parts in zip(*ways, strict=True))
+    unknown = any(not math.isfinite(end) for way in ways for part in way for end in part)
+    if unknown or ANIMATED in sources.causes:
+        notes.append(_note(parameter, hull(legal), sources.causes))
+    return legal
+
+
+def _note(parameter: Parameter, taken: Interval, causes: list[str]) -> str:
+    state = ANIMATED if ANIMATED in causes else "unknown"
+    text = f"{parameter.label} is {state}, taken as {taken[0]:g} to {taken[1]:g}"
+    others = [cause for cause in dict.fromkeys(causes) if cause != ANIMATED]
+    return f"{text}: {', '.join(others)}" if others else text
 
 
 def _brightest(kind: Kind, read: Callable[[str], Range]) -> tuple[float, float, float]:
@@ -171,16 +183,3 @@ def _set_value(found: Found, identifier: str, highest: int) -> int:
     socket = found.node.inputs.get(parameter.label)
     value = parameter.default if socket is None else socket.default_value
     return min(max(int(value), 0), highest)
-
-
-def _animated(tree: bpy.types.NodeTree) -> set[str]:
-    """Return the paths in the tree that have drivers or keys."""
-    data = tree.animation_data
-    if data is None:
-        return set()
-    paths = {driver.data_path for driver in data.drivers}
-    for layer in data.action.layers if data.action else ():
-        for strip in layer.strips:
-            for bag in strip.channelbags:
-                paths |= {curve.data_path for curve in bag.fcurves}
-    return paths

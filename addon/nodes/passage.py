@@ -12,6 +12,7 @@ import bpy
 from .group import KIND_KEY
 from .ranges import Path, input_range
 from .reached import reached_nodes, surface_output
+from .sources import Sources
 
 # Below this a reflection shows what stands before it.
 _MIRROR_ROUGHNESS = 0.25
@@ -28,21 +29,21 @@ class Passage(Enum):
     MIRRORED = "mirrored"
 
 
-def passage(material: bpy.types.Material) -> Passage:
+def passage(material: bpy.types.Material, sources: Sources) -> Passage:
     """Return what a ray of sight does where it meets this material."""
     output = surface_output(material)
     linked = [name for name in ("Surface", "Volume") if output and output.inputs[name].is_linked]
     if linked == ["Volume"]:
         return Passage.THROUGH
-    found = {_of_node(node, path) for path, node in reached_nodes(material)}
+    found = {_of_node(node, path, sources) for path, node in reached_nodes(material)}
     # What is both shows more of what is behind it.
     ways = (Passage.THROUGH, Passage.MIRRORED)
     return next((way for way in ways if way in found), Passage.ENDS)
 
 
-def _of_node(node: bpy.types.Node, path: Path) -> Passage:
+def _of_node(node: bpy.types.Node, path: Path, sources: Sources) -> Passage:
     def ends(name: str) -> tuple[float, float]:
-        return input_range(node.inputs[name], path)[0]
+        return input_range(node.inputs[name], path, sources)[0]
 
     name = node.bl_idname
     kind = node.node_tree.get(KIND_KEY, "") if name == "ShaderNodeGroup" and node.node_tree else ""

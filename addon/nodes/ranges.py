@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which values a node's input can take: links are followed through values, textures and maths.
+"""Which values a node's input can take, at any frame: links are followed through values, textures
+and maths.
 
 A range is a tuple of intervals, one for a number and three for a colour or vector. What is not
 understood can be anything: the caller limits it to what is legal.
 """
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import bpy
@@ -20,7 +21,7 @@ from ..core.intervals import (
     mapped,
     mixed,
 )
-from .image_range import image_range
+from .sources import Sources
 
 # The group nodes in which a tree lies, from the outermost to the innermost.
 Path = tuple[bpy.types.Node, ...]
@@ -32,22 +33,23 @@ _DEEPEST = 64  # links: more are a ring of nodes
 _RAMP_SAMPLES = 64
 
 
-def input_range(socket: bpy.types.NodeSocket, path: Path = (), depth: int = 0) -> Range:
+def input_range(
+    socket: bpy.types.NodeSocket, path: Path, sources: Sources, depth: int = 0
+) -> Range:
     """Return the range of an input socket; `path` tells by which groups its tree is reached."""
     link = next((link for link in socket.links if link.is_valid and not link.is_muted), None)
     if link is None:
-        value = getattr(socket, "default_value", None)
-        return _constant(value)
-    found = _output_range(link.from_socket, path, depth + 1)
+        return _set_value(socket, sources)
+    found = _output_range(link.from_socket, path, sources, depth + 1)
     return _converted(found, link.from_socket, socket)
 
 
-def _constant(value: object) -> Range:
+def _set_value(socket: bpy.types.NodeSocket, sources: Sources) -> Range:
+    value = getattr(socket, "default_value", None)
     if value is None or isinstance(value, str):
         return _UNKNOWN
-    if hasattr(value, "__len__"):
-        return tuple((float(part), float(part)) for part in tuple(value)[:3])
-    return ((float(value), float(value)),)
+    parts = tuple(value)[:3] if hasattr(value, "__len__") else (value,)
+    return sources.over_time(socket, tuple((float(part), float(part)) for part in parts))
 
 
 def _converted(found: Range, source: bpy.types.NodeSocket, target: bpy.types.NodeSocket) -> Range:
@@ -63,28 +65,28 @@ def _converted(found: Range, source: bpy.types.NodeSocket, target: bpy.types.Nod
     )
 
 
-def _output_range(socket: bpy.types.NodeSocket, path: Path, depth: int) -> Range:
+def _output_range(socket: bpy.types.NodeSocket, path: Path, sources: Sources, depth: int) -> Range:
     node = socket.node
-    if depth > _DEEPEST:
+    if depth > _DEEPEST or sources.animates_settings(node):
         return _UNKNOWN
     if node.mute:
         inner = next((one for one in node.internal_links if one.to_socket == socket), None)
-        return input_range(inner.from_socket, path, depth) if inner else _UNKNOWN
+        return input_range(inner.from_socket, path, sources, depth) if inner else _UNKNOWN
     if node.bl_idname == "NodeReroute":
-        return input_range(node.inputs[0], path, depth)
+        return input_range(node.inputs[0], path, sources, depth)
     if node.bl_idname == "NodeGroupInput":
         if not path:
             return _UNKNOWN
         outer = _by_identifier(path[-1].inputs, socket.identifier)
-        return input_range(outer, path[:-1], depth) if outer else _UNKNOWN
+        return input_range(outer, path[:-1], sources, depth) if outer else _UNKNOWN
     if node.bl_idname == "ShaderNodeGroup":
         end = group_output(node.node_tree) if node.node_tree else None
         inner = _by_identifier(end.inputs, socket.identifier) if end else None
-        return input_range(inner, (*path, node), depth) if inner else _UNKNOWN
+        return input_range(inner, (*path, node), sources, depth) if inner else _UNKNOWN
     reader = _READERS.get(node.bl_idname)
     if reader is None:
         return _UNKNOWN
-    return reader(node, socket, lambda inner: input_range(inner, path, depth))
+    return reader(node, socket, _Read(path, sources, depth))
 
 
 def group_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
@@ -99,16 +101,27 @@ def _by_identifier(
     return next((socket for socket in sockets if socket.identifier == identifier), None)
 
 
-# What follows reads one kind of node each: (node, its output, the range of an input of it).
-_Read = Callable[[bpy.types.NodeSocket], Range]
+@dataclass(frozen=True)
+class _Read:
+    """Gives the range of an input of the node that is read."""
+
+    path: Path
+    sources: Sources
+    depth: int
+
+    def __call__(self, socket: bpy.types.NodeSocket) -> Range:
+        return input_range(socket, self.path, self.sources, self.depth)
+
+
+# What follows reads one kind of node each: (node, its output, what reads an input of it).
 
 
 def _value(node: bpy.types.Node, socket: bpy.types.NodeSocket, read: _Read) -> Range:
-    return _constant(socket.default_value)
+    return _set_value(socket, read.sources)
 
 
 def _image(node: bpy.types.Node, socket: bpy.types.NodeSocket, read: _Read) -> Range:
-    found = image_range(node.image)
+    found = read.sources.image(node.image)
     if found is None:
         return _UNKNOWN
     if node.extension == "CLIP":

@@ -14,8 +14,10 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Vector
 
+from ..core.run import Pieces, done_at_once
 from .passage import Passage, passage
 from .rendered import rendered_materials, rendered_objects
+from .sources import Sources
 
 WIDTH = 64  # rays across the longer side of the picture
 # A surface that no ray meets may still be seen in a rough reflection, or be smaller than a pixel
@@ -74,16 +76,21 @@ def picture_shares(
     progress -- is told the part that is done, from 0 to 1
     seconds  -- when they are over, the rays that were sent until then count
     """
+    return done_at_once(share_pieces(context, seconds, Sources(seconds)), progress)
+
+
+def share_pieces(context: bpy.types.Context, seconds: float, sources: Sources) -> Pieces[Shares]:
+    """Do the work of picture_shares(); nothing of the scene may change meanwhile."""
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     rays = list(_camera_rays(scene, depsgraph))
     if not rays:
         return Shares({}, has_camera=False)
     hits: Counter[str] = Counter()
-    sight = _Sight(scene, depsgraph)
+    sight = _Sight(scene, depsgraph, sources)
     sent, empty, end = 0, 0, time.monotonic() + seconds
     for number in _spread(len(rays)):
         if sent % WIDTH == 0:
-            progress(sent / len(rays))
+            yield sent / len(rays)
         if sent and time.monotonic() > end:
             break
         met = {material.name_full for material in sight.along(*rays[number])}
@@ -142,8 +149,10 @@ def _hidden_objects(scene: bpy.types.Scene) -> set[bpy.types.Object]:
 class _Sight:
     """Follows rays through the scene; what materials and curves are is found once."""
 
-    def __init__(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        self.scene, self.depsgraph = scene, depsgraph
+    def __init__(
+        self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, sources: Sources
+    ) -> None:
+        self.scene, self.depsgraph, self.sources = scene, depsgraph, sources
         self.hidden = _hidden_objects(scene)
         self.passages: dict[str, Passage] = {}
         self.indices: dict[str, list[int]] = {}
@@ -182,7 +191,7 @@ class _Sight:
     def _passage(self, material: bpy.types.Material) -> Passage:
         name = material.name_full
         if name not in self.passages:
-            self.passages[name] = passage(material)
+            self.passages[name] = passage(material, self.sources)
         return self.passages[name]
 
     def _material(self, thing: bpy.types.Object, face: int) -> bpy.types.Material | None:

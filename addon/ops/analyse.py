@@ -6,15 +6,17 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.picture_error import DEFAULT_TOLERANCE, percent
+from ..core.run import PiecewiseRun
 from ..preferences import preferences
 from ..text import message
+from .following import FollowsRun
 from .redraw import redraw_panels
 
 # What does the work is imported when it is called: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
     from ..nodes.analyse import Report
 
-# What finding the shares of the picture may take, so that no scene holds Blender up for long.
+# What images and the shares of the picture may take, so that no scene holds Blender up for long.
 _SECONDS = 5.0
 
 # The last analysis, with the file to which it belongs; nothing of it is stored in the file.
@@ -29,7 +31,7 @@ def last_report(context: bpy.types.Context) -> "Report | None":
     return report if (path, report.scene) == (bpy.data.filepath, context.scene.name) else None
 
 
-class MICROBOUNCE_OT_analyse(bpy.types.Operator):
+class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
     """Make the table of proposals; change nothing."""
 
     bl_idname = "microbounce.analyse"
@@ -53,19 +55,33 @@ class MICROBOUNCE_OT_analyse(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Analyse the scene with a progress display at the pointer."""
-        from ..nodes.analyse import analyse
+    title = "Analysis"
+    alone = True
 
-        global _kept
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow one at a time."""
+        return cls.is_idle()
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Analyse the scene; Esc cancels."""
+        return self.follow(context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Analyse the scene, and wait for the end."""
+        return self.wait(context)
+
+    def start(self, context: bpy.types.Context) -> "PiecewiseRun[Report]":
+        """Begin to analyse."""
+        from ..nodes.analyse import analysis_pieces
+
         given = self.properties.is_property_set("tolerance")
         tolerance = self.tolerance if given else preferences(context).tolerance
-        manager = context.window_manager
-        manager.progress_begin(0.0, 1.0)
-        try:
-            report = analyse(context, tolerance, manager.progress_update, _SECONDS)
-        finally:
-            manager.progress_end()
+        return PiecewiseRun(analysis_pieces(context, tolerance, _SECONDS))
+
+    def finish(self, context: bpy.types.Context, report: "Report") -> set[str]:
+        """Keep the table for the panels, and report how many materials could change."""
+        global _kept
         _kept = (bpy.data.filepath, report)
         redraw_panels(context)
         if not report.rows:
@@ -109,21 +125,14 @@ class MICROBOUNCE_OT_apply_analysis(bpy.types.Operator):
         from ..nodes.analyse import apply
 
         done, left = apply(context, last_report(context))
+        names = ", ".join(left)
         if not done:
-            self.report(
-                {"ERROR"},
-                "Nothing was set: the materials are not as they were. Analyse them anew",
-            )
+            text = "Nothing was set. Changed since the analysis: {names}. Analyse again"
+            self.report({"ERROR"}, message(text, names=names))
             return {"CANCELLED"}
         if left:
-            self.report(
-                {"WARNING"},
-                message(
-                    "{count} set; left as they have changed since: {names}",
-                    count=len(done),
-                    names=", ".join(left),
-                ),
-            )
+            text = "{count} set. Changed since the analysis and left: {names}. Analyse again"
+            self.report({"WARNING"}, message(text, count=len(done), names=names))
         else:
             self.report({"INFO"}, message("{count} materials set", count=len(done)))
         return {"FINISHED"}

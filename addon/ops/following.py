@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators share that follow a run of other Blenders while this one goes on being used."""
+"""What operators share that follow a run, such as of other Blenders while this one is used."""
 
 import bpy
 
@@ -14,10 +14,11 @@ class FollowsRun:
     """Shows how far a run is, ends it on Esc, and takes its result.
 
     A subclass has `title`, what is done, start() and finish(). `progress` is that of the run under
-    way, None where there is none.
+    way, None where there is none. With `alone` all else waits, as for work on the scene itself.
     """
 
     title = ""
+    alone = False
     progress: Progress | None = None
 
     _run: Run | None = None
@@ -77,12 +78,13 @@ class FollowsRun:
             self.cancel(context)
             self.report({"INFO"}, label("{title}: cancelled", title=label(self.title)))
             return {"CANCELLED"}
+        going_on = {"RUNNING_MODAL" if self.alone else "PASS_THROUGH"}
         if event.type != "TIMER":
-            return {"PASS_THROUGH"}
+            return going_on
         try:
             if self._run.advance():
                 self._show(context, self._run.progress())
-                return {"PASS_THROUGH"}
+                return going_on
             result = self._run.result()
         except RunError as error:
             self.cancel(context)

@@ -66,6 +66,16 @@ def osl_scene(registered):
 
 
 @pytest.fixture
+def metal(empty_file):
+    """A metal, its node tree and our node in it."""
+    from addon.nodes.group import new_material
+
+    material = new_material("CONDUCTOR", "Metal")
+    tree = material.node_tree
+    return material, tree, next(n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
+
+
+@pytest.fixture
 def compiled_once(monkeypatch):
     """Compile each shader once for all tests that use this: none of them is about compiling."""
     from addon.nodes import group

@@ -11,6 +11,7 @@ from addon.command.main import main
 from addon.nodes.group import new_material
 from addon.ops.analyse import last_report
 
+from .analysis_support import image, textured
 from .support import small_scene
 
 pytestmark = pytest.mark.usefixtures("compiled_once")
@@ -50,6 +51,35 @@ def test_analysing_changes_nothing(scene) -> None:
     assert all(0.01 < row.proposal.share < 0.5 for row in report.rows)
 
 
+def test_it_can_be_ended_before_its_end(scene) -> None:
+    """As Esc does; where there is no window it is waited for."""
+    from addon.nodes.analyse import analysis_pieces
+
+    pieces = analysis_pieces(bpy.context, 0.01)
+    assert [next(pieces) for _ in range(4)] == [0.0, 0.0, 0.0, 1 / 64]
+    pieces.close()
+    assert bpy.ops.microbounce.analyse("INVOKE_DEFAULT") == {"FINISHED"}
+    assert len(last_report(bpy.context).changes) == 2
+
+
+def test_images_without_time_count_as_anything(scene, monkeypatch) -> None:
+    """What is proposed so can be applied all the same."""
+    from addon.ops import analyse
+
+    made = image(0.1, 0.2)
+    for name in ("Smooth", "Rough"):
+        node = quality(name).node
+        tree = node.id_data
+        tree.links.new(textured(tree, made), node.inputs["Roughness"])
+    monkeypatch.setattr(analyse, "_SECONDS", 0.0)
+    bpy.ops.microbounce.analyse()
+    for row in last_report(bpy.context).rows:
+        assert row.notes[0].endswith("there was no time to read the image 'Slope'")
+        assert row.proposal.then.quality == "Fitted"
+    bpy.ops.microbounce.apply_analysis()
+    assert [quality(name).default_value for name in ("Smooth", "Rough")] == [1, 1]
+
+
 def test_applying_and_undoing(scene) -> None:
     bpy.context.preferences.edit.use_global_undo = True
     bpy.ops.ed.undo_push(message="before")
@@ -73,8 +103,21 @@ def test_what_changed_since_is_left(scene) -> None:
     quality("Smooth").default_value = 3
     bpy.ops.microbounce.apply_analysis()
     assert [quality(name).default_value for name in ("Smooth", "Rough")] == [3, 1]
-    with pytest.raises(RuntimeError, match="Analyse them anew"):
+    with pytest.raises(RuntimeError, match="Changed since the analysis: Rough, Smooth"):
         bpy.ops.microbounce.apply_analysis()
+
+
+def test_a_proposal_for_another_surface_is_left(scene, capfd) -> None:
+    """What is proposed for smooth metal would be far off once it is rough."""
+    bpy.ops.microbounce.analyse()
+    quality("Smooth").node.inputs["Roughness"].default_value = 1.0
+    assert bpy.ops.microbounce.apply_analysis() == {"FINISHED"}
+    said = capfd.readouterr().out
+    assert "1 set. Changed since the analysis and left: Smooth. Analyse again" in said
+    assert [quality(name).default_value for name in ("Smooth", "Rough")] == [2, 1]
+    bpy.ops.microbounce.analyse()
+    assert bpy.ops.microbounce.apply_analysis() == {"FINISHED"}
+    assert quality("Smooth").default_value == 1
 
 
 def test_what_is_driven_is_told_and_left(scene) -> None:
@@ -187,8 +230,20 @@ def test_the_command_analyses(file, capfd) -> None:
         "Smooth": "Single",
         "Rough": "Fitted",
     }
+    rough = next(row for row in data["materials"] if row["material"] == "Rough")
+    assert [step["quality"] for step in rough["steps"]] == ["Single", "Fitted", "Walk", "Exact"]
+    single, fitted = rough["steps"][:2]
+    assert fitted["error"] == rough["error_then"]
+    assert single["picture_error"] == pytest.approx(
+        single["error"] * rough["share"] ** 0.5, abs=2e-4
+    )
+    assert single["energy_lost"] > 0.3
+    assert fitted["time"] > 0.9 * single["time"]
     assert main(["analyse", "--file", str(file)]) == 1
-    assert "further bounces carry" in capfd.readouterr().out
+    told = capfd.readouterr().out
+    assert "further bounces carry" in told
+    for step in ("Single", "Fitted", "Walk", "Exact"):
+        assert told.count(f"\n        {step}") == 2
 
 
 def test_the_command_applies_to_another_file(file, tmp_path, capfd) -> None:
@@ -200,6 +255,20 @@ def test_the_command_applies_to_another_file(file, tmp_path, capfd) -> None:
     assert data["saved"] == str(target)
     assert file.read_bytes() == before
     assert main(["analyse", "--file", str(target)]) == 0
+
+
+def test_the_command_tells_where_no_choice_is_enough(file, tmp_path, capfd) -> None:
+    """Both subcommands: whether a change is proposed or not."""
+    target = tmp_path / "best.blend"
+    arguments = ["--tolerance", "0.0001"]
+    assert main(["apply", "--file", str(file), *arguments, "--save-as", str(target)]) == 1
+    told = capfd.readouterr().out
+    assert "No choice of steps is within the tolerance of 0.01 %: " in told
+    assert " % are left" in told
+    assert main(["analyse", "--file", str(target), *arguments, "--json"]) == 1
+    data = json.loads(capfd.readouterr().out)
+    assert not data["within_tolerance"]
+    assert not any(row["changes"] for row in data["materials"])
 
 
 def test_bad_tolerances(file, capfd) -> None:

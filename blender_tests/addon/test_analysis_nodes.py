@@ -9,39 +9,11 @@ from addon.core.intervals import ANYTHING, OPERATIONS, corners, mapped
 from addon.core.kinds import KINDS
 from addon.nodes.group import add_group_node, material_group, new_material
 from addon.nodes.inspect import found_nodes, obstacle, read_choice, read_surface
-from addon.nodes.ranges import input_range
 
+from .analysis_support import image, linked_range, textured
 from .support import surface_material
 
 pytestmark = pytest.mark.usefixtures("compiled_once")
-
-
-@pytest.fixture
-def metal(empty_file):
-    """A metal, its node tree and our node in it."""
-    material = new_material("CONDUCTOR", "Metal")
-    tree = material.node_tree
-    return material, tree, next(n for n in tree.nodes if n.bl_idname == "ShaderNodeGroup")
-
-
-def alphas_of(material) -> tuple:
-    (found,) = found_nodes([material])
-    return read_surface(found)
-
-
-def image(low: float, high: float, name: str = "Slope", data: bool = True):
-    import bpy
-
-    made = bpy.data.images.new(name, 8, 8, float_buffer=data, is_data=data)
-    values = [low + (high - low) * i / 63 for i in range(64)]
-    made.pixels = [part for v in values for part in (v, v, v, 1.0)]
-    return made
-
-
-def textured(tree, made):
-    node = tree.nodes.new("ShaderNodeTexImage")
-    node.image = made
-    return node.outputs["Color"]
 
 
 def math_node(tree, operation: str, source, *values: float, clamp: bool = False):
@@ -51,11 +23,6 @@ def math_node(tree, operation: str, source, *values: float, clamp: bool = False)
     for socket, value in zip(node.inputs[1:], values, strict=False):
         socket.default_value = value
     return node.outputs[0]
-
-
-def linked_range(tree, node, source) -> tuple[float, float]:
-    tree.links.new(source, node.inputs["Roughness"])
-    return input_range(node.inputs["Roughness"])[0]
 
 
 def test_plain_values(kind, empty_file) -> None:
@@ -82,33 +49,6 @@ def test_srgb_images_are_made_linear(metal) -> None:
     _, tree, node = metal
     found = linked_range(tree, node, textured(tree, image(0.0, 0.5, data=False)))
     assert found == pytest.approx((0.0, ((0.5 + 0.055) / 1.055) ** 2.4), abs=0.01)
-
-
-def test_a_missing_image_can_be_anything(metal) -> None:
-    material, tree, node = metal
-    texture = tree.nodes.new("ShaderNodeTexImage")
-    tree.links.new(texture.outputs["Color"], node.inputs["Roughness"])
-    surface, notes = alphas_of(material)
-    assert surface.roughness == (0.0, 1.0)
-    assert notes == ("Roughness is unknown, taken as 0 to 1",)
-
-
-def test_a_lost_file_can_be_anything(metal, tmp_path) -> None:
-    import bpy
-
-    material, tree, node = metal
-    path = tmp_path / "slope.png"
-    made = image(0.2, 0.7)
-    made.filepath_raw, made.file_format = str(path), "PNG"
-    made.save()
-    kept = bpy.data.images.load(str(path))
-    kept.colorspace_settings.name = "Non-Color"
-    tree.links.new(textured(tree, kept), node.inputs["Roughness"])
-    assert alphas_of(material)[0].roughness == pytest.approx((0.2, 0.7), abs=0.01)
-    assert not kept.has_data  # it is not kept in memory
-    path.unlink()
-    kept.reload()
-    assert alphas_of(material)[0].roughness == (0.0, 1.0)
 
 
 def test_maths_and_maps(metal) -> None:

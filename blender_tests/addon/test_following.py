@@ -107,6 +107,16 @@ def test_a_run_is_followed_to_its_end(context, window):
     assert clean(context, follower)
 
 
+def test_all_else_waits_for_what_is_alone(context, window):
+    follower = Follower(FakeRun(steps=1))
+    follower.alone = True
+    follower.follow(context)
+    for event in (MOUSE, TIMER):
+        assert follower.modal(context, event) == {"RUNNING_MODAL"}
+    assert follower.modal(context, ESC) == {"CANCELLED"}
+    assert clean(context, follower)
+
+
 def test_esc_ends_it(context, window):
     follower = Follower(FakeRun(steps=3))
     follower.follow(context)

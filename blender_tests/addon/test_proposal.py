@@ -154,9 +154,27 @@ def test_proposing_again_changes_nothing() -> None:
         assert not any(one.changes for one in propose(again, 0.01))
 
 
+def test_every_step_is_predicted() -> None:
+    """Also where nothing may change; what is proposed is one of them."""
+    rough = surface("CONDUCTOR", 0.75)
+    made = proposed(rough, WALK)
+    assert [option.choice.quality for option in made.steps] == list(QUALITIES)
+    single, fitted = made.steps[:2]
+    assert (fitted.choice, fitted.error, fitted.cost) == (
+        made.then,
+        made.error_then,
+        made.cost_then,
+    )
+    assert single.error > 0.3
+    assert single.loss > 0.3 > fitted.loss
+    (kept,) = propose([Shown(rough, WALK, 0.5, "It is linked")], 0.01)
+    assert kept.steps == made.steps
+    assert not kept.changes
+
+
 def test_options_that_are_not_worth_it_are_left_out() -> None:
     def option(error: float, cost: float) -> Option:
-        return Option(FITTED, error, cost)
+        return Option(FITTED, error, cost, 0.0)
 
     cheap, near, dear = option(0.1, 1.0), option(0.01, 2.0), option(0.0095, 3.0)
     assert _worth([dear, near, cheap]) == [cheap, near]

@@ -15,7 +15,7 @@ Curves = dict[int, list[bpy.types.FCurve]]
 def input_curves(tree: bpy.types.NodeTree) -> dict[str, Curves]:
     """Return the curves and drivers of node inputs in `tree`, by the names of the nodes."""
     found: dict[str, Curves] = {}
-    for curve in _curves(tree.animation_data):
+    for curve in animation_curves(tree.animation_data):
         match = _INPUT.fullmatch(curve.data_path)
         if match:
             name = bpy.utils.unescape_identifier(match["node"])
@@ -46,7 +46,8 @@ def move_curves(
             curve.data_path = f"{prefix}.inputs[{numbers[name]}]{rest}"
 
 
-def _curves(data: bpy.types.AnimData | None) -> Iterator[bpy.types.FCurve]:
+def animation_curves(data: bpy.types.AnimData | None) -> Iterator[bpy.types.FCurve]:
+    """Yield the drivers and the curves that `data` has of its own or by the NLA's strips."""
     if data is None:
         return
     yield from data.drivers
