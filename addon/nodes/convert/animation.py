@@ -15,7 +15,7 @@ Curves = dict[int, list[bpy.types.FCurve]]
 def input_curves(tree: bpy.types.NodeTree) -> dict[str, Curves]:
     """Return the curves and drivers of node inputs in `tree`, by the names of the nodes."""
     found: dict[str, Curves] = {}
-    for curve in _curves(tree.animation_data):
+    for curve in curves_of(tree.animation_data):
         match = _INPUT.fullmatch(curve.data_path)
         if match:
             name = bpy.utils.unescape_identifier(match["node"])
@@ -46,12 +46,16 @@ def move_curves(
             curve.data_path = f"{prefix}.inputs[{numbers[name]}]{rest}"
 
 
-def _curves(data: bpy.types.AnimData | None) -> Iterator[bpy.types.FCurve]:
+def curves_of(data: bpy.types.AnimData | None) -> Iterator[bpy.types.FCurve]:
+    """Yield the drivers and the curves of the action and of all NLA strips, each once."""
     if data is None:
         return
     yield from data.drivers
     used = [(data.action, data.action_slot)]
-    used += [(s.action, s.action_slot) for track in data.nla_tracks for s in track.strips]
+    strips = [strip for track in data.nla_tracks for strip in track.strips]
+    for strip in strips:
+        strips += strip.strips  # of a meta strip
+        used.append((strip.action, strip.action_slot))
     seen = set()
     for action, slot in used:
         if action is None or slot is None or (action, slot.handle) in seen:
