@@ -70,6 +70,7 @@ class Installed:
         self._run("apply_preset", identifier="conductor/gold")
         self._run("search_preset", identifier="conductor/copper")
         self._run("apply_finish", identifier="finish/brushed")
+        self._run("set_choice", parameter="Quality", value="Walk")
         self._run("save_preset", name="Smoke")
         (path,) = Path(bpy.utils.user_resource("SCRIPTS")).rglob("Smoke*")
         self._run("apply_user_preset", filepath=str(path))
@@ -113,7 +114,7 @@ class Installed:
                     if getattr(cls, "bl_space_type", space_type) != space_type:
                         continue
                     if not hasattr(cls, "poll") or cls.poll(bpy.context):
-                        cls.draw(_Drawn(Layout()), bpy.context)
+                        cls.draw(_Drawn(cls), bpy.context)
                         self.drawn.add(cls.__name__)
 
 
@@ -124,10 +125,13 @@ def drawn_classes() -> list[type]:
 
 
 class _Drawn:
-    """Stands in for a panel or menu: it has a layout."""
+    """Stands in for a panel or menu: it has a layout, and all that its class has."""
 
-    def __init__(self, layout: "Layout") -> None:
-        self.layout = layout
+    def __init__(self, cls: type) -> None:
+        self._cls, self.layout = cls, Layout()
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._cls, name)
 
 
 class Layout:
