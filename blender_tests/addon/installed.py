@@ -93,6 +93,7 @@ class Installed:
         self._run("check_farm", prove=True)
         quick = {"bounces": "", "baselines": False, "rounds": 2, "reference_samples": 4}
         self._run("measure_cost", samples=2, percentage=100, steps="Fitted", **quick)
+        self._run("show_cost_plot")
         self._run("clear_cost_cache")
 
     def _library(self) -> None:
