@@ -12,6 +12,7 @@ from . import command, preferences
 from .ops import (
     analyse,
     check,
+    choices,
     convert,
     cost,
     farm,
@@ -25,6 +26,7 @@ from .ops import (
 )
 from .ui import analyse as analysis_panels
 from .ui import check as check_panels
+from .ui import choices as choice_menus
 from .ui import convert as convert_panel
 from .ui import cost as cost_panels
 from .ui import farm as farm_panels
@@ -37,6 +39,7 @@ _MODULES = (
     node,
     presets,
     user_presets,
+    choices,
     library,
     convert,
     update,
@@ -46,6 +49,7 @@ _MODULES = (
     cost,
     preferences,
     menus,
+    choice_menus,
     panels,
     preset_panels,
     convert_panel,

@@ -8,6 +8,7 @@ import bpy
 from ..core.cost.plan import Options, PlanError, parse_numbers, parse_steps
 from ..core.run import RunError
 from .following import FollowsRun
+from .polled import Polled
 from .redraw import redraw_panels
 
 # Imported when it is used: a start of Blender pays nothing for it.
@@ -136,7 +137,8 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
     bl_label = "Measure Cost"
     bl_description = (
         "Render this view with each quality and with Cycles' own materials, in the background, "
-        "and show how much time each takes to which error. The scene stays as it is"
+        "and show how much time each takes to which error. Where the scene has a render region, "
+        "that part alone is rendered. The scene stays as it is"
     )
     # No UNDO: nothing of the scene changes, and a step back should not be spent on it.
     bl_options = {"REGISTER"}
@@ -202,7 +204,61 @@ class MICROBOUNCE_OT_clear_cost_cache(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (MICROBOUNCE_PG_cost, MICROBOUNCE_OT_measure_cost, MICROBOUNCE_OT_clear_cost_cache)
+class MICROBOUNCE_OT_show_cost_plot(Polled, bpy.types.Operator):
+    """Show the plot in an Image Editor."""
+
+    bl_idname = "microbounce.show_cost_plot"
+    bl_label = "Show Plot"
+    bl_description = (
+        "Show the plot of the last measurement in an Image Editor, in a new window if there is none"
+    )
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def obstacle(cls, context: bpy.types.Context) -> str:
+        """Return that nothing was measured; "" where there is a plot."""
+        return "" if _last is not None else "There is no plot: press Measure Cost first"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Read it anew, for undo and other files take it away, and show it."""
+        from ..nodes.cost.run import load_plot
+
+        try:
+            image = load_plot(_last)
+        except RuntimeError:
+            self.report({"ERROR"}, f"{_last['files']['plot']} cannot be read: measure anew")
+            return {"CANCELLED"}
+        area = _image_editor(context)
+        if area is None:
+            self.report({"WARNING"}, f"No window opens: choose '{image.name}' in an Image Editor")
+            return {"FINISHED"}
+        area.spaces.active.image = image
+        self.report({"INFO"}, f"'{image.name}' is in the Image Editor")
+        return {"FINISHED"}
+
+
+def _image_editor(context: bpy.types.Context) -> bpy.types.Area | None:
+    """Return an Image Editor, rather in this window than in another, else in a new one.
+
+    None where no window can be opened.
+    """
+    manager = context.window_manager
+    windows = sorted(manager.windows, key=lambda window: window != context.window)
+    areas = [area for window in windows for area in window.screen.areas]
+    found = next((area for area in areas if area.ui_type == "IMAGE_EDITOR"), None)
+    if found is None and bpy.ops.wm.window_new.poll():
+        bpy.ops.wm.window_new()
+        found = manager.windows[-1].screen.areas[0]
+        found.ui_type = "IMAGE_EDITOR"
+    return found
+
+
+CLASSES = (
+    MICROBOUNCE_PG_cost,
+    MICROBOUNCE_OT_measure_cost,
+    MICROBOUNCE_OT_show_cost_plot,
+    MICROBOUNCE_OT_clear_cost_cache,
+)
 
 
 def register() -> None:

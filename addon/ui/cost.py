@@ -10,6 +10,7 @@ from ..ops.cost import (
     CostOptions,
     MICROBOUNCE_OT_clear_cost_cache,
     MICROBOUNCE_OT_measure_cost,
+    MICROBOUNCE_OT_show_cost_plot,
     last_report,
 )
 from .panels import draw_lines
@@ -70,7 +71,7 @@ def _draw_button(layout: bpy.types.UILayout, options: CostOptions) -> None:
 
 
 def _draw_progress(layout: bpy.types.UILayout, progress: Progress) -> None:
-    left = "" if progress.left is None else f", {_duration(progress.left)} left"
+    left = "" if progress.left is None else f", {_spent(progress.left)} left"
     layout.progress(factor=progress.part, text=f"{100 * progress.part:.0f} %{left}")
     layout.label(text=progress.text)
     layout.label(text="Esc cancels", icon="INFO")
@@ -91,6 +92,8 @@ def _draw_report(
     for row in report["variants"]:
         for text in _cells(row):
             grid.label(text=text)
+    box.operator(MICROBOUNCE_OT_show_cost_plot.bl_idname, icon="IMAGE_DATA")
+    box.label(text=f"It is the image '{_plot_name()}'", icon="BLANK1")
     buttons = box.row(align=True)
     page = Path(report["files"]["page"])
     for text, path in (("Open Report", page), ("Open Folder", page.parent)):
@@ -99,8 +102,8 @@ def _draw_report(
 
 def _cells(row: dict[str, object]) -> tuple[str, ...]:
     seconds = row["seconds_to_error"]
-    time = "never" if seconds is None else _duration(seconds)
-    if row["seconds_to_error_open"]:
+    time = "never" if row["timed"] and seconds is None else _spent(seconds)
+    if row["timed"] and row["seconds_to_error_open"]:
         time += " ?"
     bias = f"{100 * row['bias']:.2g} %"
     if not row["bias_resolved"]:
@@ -113,10 +116,16 @@ def _cells(row: dict[str, object]) -> tuple[str, ...]:
     )
 
 
-def _duration(seconds: float) -> str:
-    from ..core.cost.advice import duration
+def _plot_name() -> str:
+    from ..nodes.cost.run import IMAGE
 
-    return duration(seconds)
+    return IMAGE
+
+
+def _spent(seconds: float | None) -> str:
+    from ..core.cost.advice import spent
+
+    return spent(seconds)
 
 
 CLASSES = (MICROBOUNCE_PT_cost, MICROBOUNCE_PT_cost_options)

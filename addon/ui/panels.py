@@ -11,6 +11,7 @@ from ..ops.material import MICROBOUNCE_OT_add_material
 from ..ops.node import MICROBOUNCE_OT_add_node
 from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
 from ..text import label, message
+from .choices import draw_choices
 
 # Pixels at scale 1: of a character, rounded up, and of what a line has at its sides.
 _CHARACTER, _SIDES = 6.5, 72
@@ -73,8 +74,9 @@ class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
         return context.space_data.tree_type == "ShaderNodeTree"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is to know before rendering, and buttons for new nodes."""
+        """Draw what is to know before rendering, the node's choices, and buttons for new nodes."""
         draw_state(self.layout, context)
+        draw_choices(self.layout, context)
         draw_buttons(self.layout, MICROBOUNCE_OT_add_node.bl_idname)
 
 
@@ -93,8 +95,9 @@ class MICROBOUNCE_PT_material(bpy.types.Panel):
         return context.object is not None or getattr(context, "material", None) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is to know before rendering, and buttons for a new material."""
+        """Draw what is to know before rendering, the node's choices, and buttons for a new one."""
         draw_state(self.layout, context)
+        draw_choices(self.layout, context)
         draw_buttons(self.layout, MICROBOUNCE_OT_add_material.bl_idname)
 
 

@@ -4,11 +4,15 @@
 from types import SimpleNamespace
 
 import bpy
+import numpy as np
 import pytest
 
 from addon.core.cost.plan import Options
+from addon.core.cost.png import rgb_png
+from addon.core.cost.results import TOO_SHORT
 from addon.core.run import Progress
 from addon.nodes.cost import run
+from addon.ops import cost
 from addon.ops.cost import MICROBOUNCE_OT_measure_cost, last_report
 from addon.ui.cost import MICROBOUNCE_PT_cost, MICROBOUNCE_PT_cost_options
 from blender_tests.addon.cost_support import dump, measured, report, tiny_scene
@@ -150,10 +154,67 @@ def test_the_panel_shows_the_last_result(asked):
     assert layout.texts[2:6] == ["Variant", "To 2 %", "Bias", "Noise"]
     assert layout.texts[6:10] == ["Exact", "25 s ?", "< 55 %", "10 %"]
     assert layout.texts[10:14] == ["Fitted", "33 s", "1 %", "10 %"]
+    assert "It is the image 'Microbounce Cost'" in layout.texts
+    assert "microbounce.show_cost_plot" in [name for name, _ in layout.operators]
     assert [o.filepath for name, o in layout.operators if name == "wm.path_open"] == [
         "cost.html",
         ".",
     ]
+
+
+def test_a_time_that_is_none_is_not_shown(asked, monkeypatch):
+    quick = report(measured("walk", seconds=16 * TOO_SHORT)).as_dict()
+    monkeypatch.setattr(run, "CostRun", lambda *arguments: FakeRun(steps=1, result=quick))
+    bpy.ops.microbounce.measure_cost()
+    assert _drawn(MICROBOUNCE_PT_cost).texts[6:8] == ["Walk", "too short"]
+
+
+@pytest.fixture
+def plotted(asked, monkeypatch, tmp_path):
+    """A measurement whose plot is a file; returns the file."""
+    monkeypatch.undo()
+    path = tmp_path / "cost.png"
+    path.write_bytes(rgb_png(np.zeros((2, 3, 3))))
+    monkeypatch.setattr(cost, "_last", {"files": {"plot": str(path)}})
+    return path
+
+
+def test_the_plot_is_shown_in_an_image_editor(plotted):
+    area = bpy.context.window.screen.areas[0]
+    before = area.ui_type
+    area.ui_type = "IMAGE_EDITOR"
+    try:
+        for _ in range(2):
+            assert bpy.ops.microbounce.show_cost_plot() == {"FINISHED"}
+            assert area.spaces.active.image == bpy.data.images[run.IMAGE]
+            bpy.data.images.remove(bpy.data.images[run.IMAGE])  # as undo may do
+    finally:
+        area.ui_type = before
+
+
+def test_the_plot_where_no_window_opens(plotted):
+    assert bpy.ops.microbounce.show_cost_plot() == {"FINISHED"}
+    assert tuple(bpy.data.images[run.IMAGE].size) == (3, 2)
+
+
+def test_an_image_editor_of_this_window_is_taken_first():
+    areas = [SimpleNamespace(ui_type=kind) for kind in ("UV", "IMAGE_EDITOR", "IMAGE_EDITOR")]
+    first, second = (
+        SimpleNamespace(screen=SimpleNamespace(areas=a)) for a in (areas[:2], areas[2:])
+    )
+    for window, wanted in ((first, areas[1]), (second, areas[2])):
+        manager = SimpleNamespace(windows=[first, second])
+        context = SimpleNamespace(window_manager=manager, window=window)
+        assert cost._image_editor(context) is wanted
+
+
+def test_there_may_be_no_plot(plotted, monkeypatch):
+    plotted.unlink()
+    with pytest.raises(RuntimeError, match=r"cost\.png cannot be read: measure anew"):
+        bpy.ops.microbounce.show_cost_plot()
+    monkeypatch.setattr(cost, "_last", None)
+    with pytest.raises(RuntimeError, match="There is no plot: press Measure Cost first"):
+        bpy.ops.microbounce.show_cost_plot()
 
 
 def test_the_panel_is_for_cycles(scene):

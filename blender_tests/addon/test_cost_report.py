@@ -78,6 +78,26 @@ def test_no_times_are_told_that_are_none():
     assert recommendation([FITTED, quick], 0.02).startswith(
         "The renders are too short to be timed: give more samples or a larger size. Nearest is Walk"
     )
+    mixed = report(quick, FITTED)
+    assert [variant.key for variant in mixed.ranked()] == ["fitted", "walk"], "no time, no rank"
+    assert mixed.equal_time == pytest.approx(FITTED.seconds)
+    row = next(line for line in to_text(mixed).splitlines() if line.startswith("Walk"))
+    assert row.split("  ")[0] == "Walk"
+    assert row.count("too short") == 4, "to the target, error, time, processor"
+    times = [label.text for label in draw_plot(mixed) if isinstance(label, Label)]
+    assert "Walk" not in times
+    assert times == [label.text for label in draw_plot(report(FITTED)) if isinstance(label, Label)]
+    alone = report(quick)
+    assert alone.as_dict()["equal_time"] is None
+    assert "Error at equal time" in to_text(alone)
+    for made in (mixed, alone):
+        assert "e-0" not in to_text(made)
+        page = to_html(made, *noisy_pictures(made.variants))
+        assert "too short" in page
+        read = json.loads(to_json(made))["variants"][-1]
+        assert not read["timed"]
+        assert read["seconds"] is read["seconds_to_error"] is read["error_at_equal_time"] is None
+        assert next(csv.DictReader(io.StringIO(to_csv(made))))["timed"] in ("True", "False")
 
 
 def test_the_sentence_tells_what_the_noise_hides():

@@ -54,8 +54,8 @@ def test_a_tiny_scene_from_end_to_end(folder):
     assert (row["key"], row["samples"], setting["rounds"]) == ("fitted", 4, 2)
     assert (setting["width"], setting["height"]) == (12, 24)
     assert (setting["file"], setting["reference_samples"]) == ("tiny.blend", 8)
-    assert row["seconds"] > 0.0
-    assert row["processor_seconds"] > 0.0
+    for key in ("seconds", "processor_seconds"):  # so few samples may be too short to be timed
+        assert row[key] > 0.0 if row["timed"] else row[key] is None
     assert row["noise"] > 0.0
     assert row["memory_mb"] > 0.0
     assert 0.0 < row["flip"] < 1.0

@@ -181,6 +181,35 @@ finish({{"message": message, "folder": str(folder), "before": before, "after": a
     assert result["before"] == result["after"]
 
 
+USE = (
+    INSTALL
+    + """
+from pathlib import Path
+from blender_tests.addon.installed import Installed, drawn_classes
+made = Installed(name, Path({folder!r}))
+made.use()
+finish({{
+    "ran": made.ran, "registered": dir(bpy.ops.microbounce),
+    "drawn": sorted(made.drawn), "to draw": sorted(cls.__name__ for cls in drawn_classes()),
+    "check": made.command("check"), "presets": made.command("presets"),
+    "from the repository": "addon" in sys.modules,
+}})
+"""
+)
+
+
+def test_all_that_the_zip_registers_can_be_used(archive, tmp_path):
+    result = run_blender(USE.format(archive=str(archive), folder=str(tmp_path)), tmp_path)
+    assert sorted(result["ran"]) == sorted(result["registered"]), "none is left out"
+    assert {word for words in result["ran"].values() for word in words} == {"FINISHED"}
+    assert result["drawn"] == result["to draw"] != []
+    (code, checked), (listed, presets) = result["check"], result["presets"]
+    assert (code, listed) == (0, 0), result
+    assert checked["file"].endswith("smoke.blend")
+    assert presets["presets"]
+    assert not result["from the repository"]
+
+
 UPGRADE = """
 import importlib
 

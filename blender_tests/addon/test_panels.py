@@ -18,12 +18,16 @@ class Record:
         import bpy
 
         self.texts, self.operators, self.buttons, self.menus = [], [], [], []
+        self.titles = []  # of the menus
         self.label_icons = bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"]
 
     def box(self):
         return self
 
     def column(self, align=False):
+        return self
+
+    def split(self, factor):
         return self
 
     def label(self, text="", icon="NONE"):
@@ -37,13 +41,14 @@ class Record:
         module, name = idname.split(".")
         assert name in dir(getattr(bpy.ops, module))
         self.operators.append(name)
-        self.buttons.append(SimpleNamespace(kind=""))
+        self.buttons.append(SimpleNamespace(kind="", text=text))
         return self.buttons[-1]
 
-    def menu(self, name, icon="NONE"):
+    def menu(self, name, text="", icon="NONE"):
         import bpy
 
         assert icon in self.label_icons.enum_items
+        self.titles.append(text)
         self.menus.append(getattr(bpy.types, name))
 
     def separator(self):
@@ -81,7 +86,7 @@ def draw(bpy, panel, **members):
 
 def node_editor(shown=None, tree_type="ShaderNodeTree"):
     tree = shown.node_tree if shown else None
-    return SimpleNamespace(type="NODE_EDITOR", tree_type=tree_type, node_tree=tree)
+    return SimpleNamespace(type="NODE_EDITOR", tree_type=tree_type, node_tree=tree, id=shown)
 
 
 @pytest.fixture
@@ -168,7 +173,8 @@ def test_where_the_shader_does_not_run_the_panel_says_why(sun_lit, engine, osl, 
 
 def test_without_the_cycles_add_on(registered):
     scene = SimpleNamespace(render=SimpleNamespace(engine="BLENDER_WORKBENCH"))
-    record = draw(registered, "MICROBOUNCE_PT_material", object=object(), scene=scene)
+    thing = SimpleNamespace(active_material=None)
+    record = draw(registered, "MICROBOUNCE_PT_material", object=thing, scene=scene)
     assert "The render engine is not Cycles" in record.text
 
 

@@ -6,6 +6,9 @@ from collections.abc import Sequence
 
 from .results import Measured
 
+# In the place of a time.
+UNTIMED = "too short"
+
 
 def recommendation(variants: Sequence[Measured], error: float) -> str:
     """Return which step reaches a relative error soonest, and how the others compare.
@@ -62,9 +65,16 @@ def seconds(variant: Measured, error: float) -> str:
 
     A question mark follows where the noise leaves open whether it does.
     """
+    if not variant.is_timed:
+        return UNTIMED
     time = variant.seconds_to(error)
     text = duration(time) if math.isfinite(time) else "never"
     return f"{text} ?" if variant.split.doubtful(error) else text
+
+
+def spent(time: float | None) -> str:
+    """Return seconds in words, or that they were too few to be told from a render's start."""
+    return UNTIMED if time is None else duration(time)
 
 
 def duration(time: float) -> str:

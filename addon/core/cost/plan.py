@@ -147,6 +147,12 @@ def reference_variant(reference: str) -> Variant:
     return Variant("reference", title, "reference", _REFERENCE_SETTINGS[reference])
 
 
+def overridden(options: Options) -> tuple[str, ...]:
+    """Return the parameters, by identifier, that the reference or a variant overrides."""
+    shown = [reference_variant(options.reference), *planned_variants(options)]
+    return tuple(dict.fromkeys(name for variant in shown for name in variant.settings))
+
+
 def parse_numbers(text: str, number: type = int) -> tuple:
     """Return the numbers in a text such as "1, 2, 4"; "" and "none" give none.
 

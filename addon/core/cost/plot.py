@@ -58,8 +58,11 @@ def color_of(report: Report, variant: Measured) -> str:
 
 
 def draw_plot(report: Report) -> list[Line | Dot | Label]:
-    """Return the drawing steps of a report's plot; dots are what was rendered."""
-    variants = report.variants
+    """Return the drawing steps of a report's plot; dots are what was rendered.
+
+    Variants that were too short to be timed have no place in it, unless all were.
+    """
+    variants = report.timed or report.variants
     times = [variant.seconds for variant in variants]
     shortest, longest = min(times) / 8.0, max(times) * 8.0
     errors = [v.error_at(t) for v in variants for t in (shortest, longest)]
@@ -83,7 +86,7 @@ def draw_plot(report: Report) -> list[Line | Dot | Label]:
     target = report.setting.error
     steps.append(Line((place(shortest, target), place(longest, target)), "ink", 1.0, dashed=True))
     steps.append(Label(_LEFT, HEIGHT - 8, "seconds of rendering, without the start"))
-    for number, variant in enumerate(report.ranked()):
+    for number, variant in enumerate(v for v in report.ranked() if v in variants):
         color = color_of(report, variant)
         moments = [shortest * (longest / shortest) ** (i / 60) for i in range(61)]
         curve = tuple(place(time, variant.error_at(time)) for time in moments)

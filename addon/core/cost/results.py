@@ -108,18 +108,32 @@ class Report:
     files: dict[str, str] = field(default_factory=dict)
 
     @property
-    def equal_time(self) -> float:
-        """Seconds at which errors are compared: those of Fitted, else of the first variant."""
-        chosen = next((v for v in self.variants if v.key == "fitted"), self.variants[0])
-        return chosen.seconds
+    def timed(self) -> tuple[Measured, ...]:
+        """The variants whose times say something."""
+        return tuple(variant for variant in self.variants if variant.is_timed)
+
+    @property
+    def equal_time(self) -> float | None:
+        """Seconds at which errors are compared: those of Fitted, else of the first that is timed.
+
+        None where none is.
+        """
+        timed = self.timed
+        chosen = next((v for v in timed if v.key == "fitted"), timed[0] if timed else None)
+        return chosen and chosen.seconds
 
     def ranked(self) -> list[Measured]:
-        """Return the variants, the soonest at the target error first, then by their errors."""
-        error, time = self.setting.error, self.equal_time
-        return sorted(self.variants, key=lambda v: (v.seconds_to(error), v.error_at(time)))
+        """Return the variants, the soonest at the target error first, then by their errors.
+
+        Those that are too short to be timed come last, by their errors.
+        """
+        return sorted(self.variants, key=self._rank)
 
     def rows(self) -> list[dict[str, object]]:
-        """Return a row of plain values for each variant; None stands for never and not measured."""
+        """Return a row of plain values for each variant; None stands for never and not measured.
+
+        What is not `timed` was too short for it.
+        """
         return [self._row(variant) for variant in self.ranked()]
 
     def as_dict(self) -> dict[str, object]:
@@ -132,15 +146,23 @@ class Report:
             "files": self.files,
         }
 
-    def _row(self, variant: Measured) -> dict[str, object]:
+    def _rank(self, variant: Measured) -> tuple[float, ...]:
+        if not variant.is_timed:
+            return True, variant.error
         reached = variant.seconds_to(self.setting.error)
+        return False, reached, variant.error_at(self.equal_time)
+
+    def _row(self, variant: Measured) -> dict[str, object]:
+        timed = variant.is_timed
+        reached = variant.seconds_to(self.setting.error) if timed else math.inf
         return {
             "key": variant.key,
             "variant": variant.title,
             "family": variant.family,
             "samples": variant.samples,
-            "seconds": variant.seconds,
-            "processor_seconds": variant.processor_seconds,
+            "timed": timed,
+            "seconds": variant.seconds if timed else None,
+            "processor_seconds": variant.processor_seconds if timed else None,
             "seconds_per_sample": list(variant.cost.wall),
             "start_seconds": statistics.median(variant.cost.start),
             "noise": variant.split.noise,
@@ -151,7 +173,7 @@ class Report:
             "error": variant.error,
             "seconds_to_error": reached if math.isfinite(reached) else None,
             "seconds_to_error_open": variant.split.doubtful(self.setting.error),
-            "error_at_equal_time": variant.error_at(self.equal_time),
+            "error_at_equal_time": variant.error_at(self.equal_time) if timed else None,
             "flip": variant.flip,
             "memory_mb": variant.cost.memory,
         }

@@ -5,7 +5,7 @@ import csv
 import io
 import json
 
-from .advice import bias_text, duration, seconds
+from .advice import UNTIMED, bias_text, duration, seconds, spent
 from .results import Measured, Report
 
 
@@ -31,10 +31,11 @@ def to_csv(report: Report) -> str:
 
 def headings(report: Report) -> tuple[str, ...]:
     """Return what heads the columns of cells()."""
+    time = report.equal_time
     return (
         "Variant",
         f"Time to {100 * report.setting.error:g} %",
-        f"Error at {duration(report.equal_time)}",
+        "Error at equal time" if time is None else f"Error at {duration(time)}",
         "Bias",
         "Noise",
         "Time",
@@ -52,11 +53,11 @@ def cells(report: Report, variant: Measured) -> tuple[str, ...]:
     return (
         variant.title,
         seconds(variant, report.setting.error),
-        f"{100 * row['error_at_equal_time']:.2f} %",
+        f"{100 * row['error_at_equal_time']:.2f} %" if row["timed"] else UNTIMED,
         bias_text(variant),
         f"{100 * row['noise']:.2f} %",
-        duration(row["seconds"]),
-        duration(row["processor_seconds"]),
+        spent(row["seconds"]),
+        spent(row["processor_seconds"]),
         duration(row["start_seconds"]),
         f"{row['flip']:.3f}",
         "not measured" if memory is None else f"{memory:.{0 if memory >= 10.0 else 1}f} MB",

@@ -47,12 +47,15 @@ def move_curves(
 
 
 def animation_curves(data: bpy.types.AnimData | None) -> Iterator[bpy.types.FCurve]:
-    """Yield the drivers and the curves that `data` has of its own or by the NLA's strips."""
+    """Yield the drivers and the curves of the action and of all NLA strips, each once."""
     if data is None:
         return
     yield from data.drivers
     used = [(data.action, data.action_slot)]
-    used += [(s.action, s.action_slot) for track in data.nla_tracks for s in track.strips]
+    strips = [strip for track in data.nla_tracks for strip in track.strips]
+    for strip in strips:
+        strips += strip.strips  # of a meta strip
+        used.append((strip.action, strip.action_slot))
     seen = set()
     for action, slot in used:
         if action is None or slot is None or (action, slot.handle) in seen:

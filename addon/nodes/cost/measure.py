@@ -54,6 +54,11 @@ def measure_job(path: Path) -> None:
     references = load_reference(job["cache"])
     kept = references is not None
     notes = list(job["notes"])
+    if renderer.held:
+        notes.append(
+            f"Keyframes and drivers of {', '.join(renderer.held)} were off in the copy: each "
+            "variant sets its own values, what it does not set stays as it is at this frame."
+        )
     total = 1 + len(variants) * options.rounds * (samples + 1) + (0 if kept else 2 * half)
     tell = _Teller(progress, total)
 

@@ -16,6 +16,8 @@ import bpy
 from ...core import VERSION
 from ...core.cost.plan import Options, reference_variant
 
+# Raise it when a reference is rendered in another way: older ones are not used any more then.
+_REVISION = 2
 # Older references are removed when there are more.
 _MOST = 8
 _FOLDER = "cost_references"
@@ -99,7 +101,7 @@ def store_reference(path: str, pictures: "list[numpy.ndarray]") -> bool:
 
 def _parts(scene: bpy.types.Scene, layer: str, options: Options) -> Iterator:
     """Yield all that a reference depends on, as far as Python can tell at little cost."""
-    yield VERSION, bpy.app.version_string, layer, scene.name
+    yield VERSION, _REVISION, bpy.app.version_string, layer, scene.name
     yield scene.frame_current, scene.frame_subframe, scene.cycles.samples
     yield options.samples, options.reference, options.reference_samples
     yield options.percentage, options.region, reference_variant(options.reference)

@@ -13,10 +13,11 @@ from pathlib import Path
 
 import bpy
 
-from ...core.cost.plan import Options, Variant
+from ...core.cost.plan import Options, Variant, overridden
 from ..farm.usage import is_used, material_uses
 from ..group import has_bytecode
 from ..variants import Placed, placed_in
+from .still import hold_still
 
 # "Mem:0.50M, Peak:1.25M" up to Blender 4.5, "Mem: 11M" in Blender 5.
 _PEAK = re.compile(r"Peak:\s*([\d.]+)([KMG])")
@@ -40,7 +41,11 @@ class Rendered:
 
 
 class Renderer:
-    """A scene that is made ready for measuring."""
+    """A scene that is made ready for measuring.
+
+    samples -- of a picture
+    held    -- the labels of the inputs whose keyframes and drivers were stopped
+    """
 
     def __init__(self, scene: bpy.types.Scene, layer: str, options: Options, folder: Path) -> None:
         """Make the scene ready; `layer` is the view layer to render, `folder` takes pictures."""
@@ -49,6 +54,9 @@ class Renderer:
         self._placed = placed_nodes()
         self._kept: list[tuple] = []
         self.samples = options.samples or max(2, scene.cycles.samples)
+        # Before anything is stopped, every input gets the value that it has at this frame.
+        scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
+        self.held = hold_still(self._placed, overridden(options))
         _prepare(scene, layer, options)
         _prepare_output(scene.render, self._path)
 
