@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.cost.plan import Options, PlanError, parse_numbers, parse_steps
 from ..core.run import RunError
 from .following import FollowsRun
 from .polled import Polled
@@ -13,6 +12,7 @@ from .redraw import redraw_panels
 
 # Imported when it is used: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
+    from ..core.cost.plan import Options
     from ..nodes.cost.run import CostRun
 
 # What the last measurement of this session found, as Report.as_dict() has it; None before it.
@@ -106,11 +106,13 @@ class CostOptions:
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
 
-    def asked(self) -> Options:
+    def asked(self) -> "Options":
         """Return what is asked for; raises PlanError for what makes no sense.
 
         It is not called `options`: every operator has something else by that name.
         """
+        from ..core.cost.plan import Options, parse_numbers, parse_steps
+
         return Options(
             samples=self.samples,
             percentage=self.percentage,
@@ -163,6 +165,7 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
 
     def start(self, context: bpy.types.Context) -> "CostRun":
         """Begin to measure what is asked for."""
+        from ..core.cost.plan import PlanError
         from ..nodes.cost.run import CostRun
 
         try:
