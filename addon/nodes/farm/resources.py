@@ -14,6 +14,9 @@ _MOST_LISTED = 5
 # Kinds of data-blocks whose content may be a file.
 _WITH_FILES = ("images", "movieclips", "sounds", "fonts", "volumes", "cache_files")
 _FILE_SOURCES = ("FILE", "SEQUENCE", "TILED", "MOVIE")
+_PACK_LIBRARIES = "Take File > External Data > Pack Linked Libraries, or make it all local."
+_PUT_BACK = "Put it back, load this file again, and take External Data > Pack Linked Libraries."
+_BRING_BACK = "Bring that back in the library, or remove what uses it here."
 
 
 def image_findings(uses: Iterable[Use]) -> list[Finding]:
@@ -68,30 +71,32 @@ def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
     return found
 
 
-def library_findings(uses: Iterable[Use]) -> list[Finding]:
-    """Return which libraries used materials need, and what is wrong with these."""
-    needed: dict[bpy.types.Library, list[str]] = {}
-    for use in uses:
-        for data in (use.material, *use.trees[1:], *use.groups, *use.lost):
-            library = data.library
-            # Blender 5 packs libraries another way than by a packed file.
-            if library and not (library.packed_file or getattr(data, "is_linked_packed", False)):
-                needed.setdefault(library, []).append(data.name)
-    found = []
-    for library, names in needed.items():
+def library_findings() -> list[Finding]:
+    """Return which libraries the file needs that are not packed into it, the missing ones first.
+
+    All of them count: nothing tells whether what is linked from a missing one was ours.
+    """
+    errors, warnings = [], []
+    for library in bpy.data.libraries:
+        # What was linked directly, and not by that, is what users know.
+        linked = sorted(library.users_id, key=lambda data: data.is_library_indirect)
+        if not linked:  # it will not be saved
+            continue
+        lost = [data for data in linked if data.is_missing]
+        names = _listed([f"'{data.name}'" for data in lost or linked])
         subject = f"Library '{library.filepath}'"
-        holds = ", ".join(f"'{name}'" for name in dict.fromkeys(names))
-        if not os.path.exists(bpy.path.abspath(library.filepath)):
-            message = f"It is missing, and with it {holds}."
-            found.append(Finding("error", subject, message, "Put the file back and relocate it."))
-        elif library.filepath.startswith("//"):
-            message = f"The farm needs this file too, for {holds}."
-            found.append(Finding("note", subject, message, "Send it along, or make them local."))
-        else:
-            message = f"{holds} are linked by an absolute path, which a farm does not have."
-            remedy = "Take File > External Data > Make Paths Relative, or make them local."
-            found.append(Finding("warning", subject, message, remedy))
-    return found
+        # Blender 5 also packs single data-blocks, into libraries that are archives.
+        packed = library.packed_file or getattr(library, "is_archive", False)
+        if not packed and not os.path.exists(bpy.path.abspath(library.filepath)):
+            message = f"It is missing, and with it {names}."
+            errors.append(Finding("error", subject, message, _PUT_BACK))
+        elif lost:
+            message = f"It holds no {names}, which this file needs."
+            errors.append(Finding("error", subject, message, _BRING_BACK))
+        elif not packed:
+            message = f"A farm needs this file too, for {names}."
+            warnings.append(Finding("warning", subject, message, _PACK_LIBRARIES))
+    return errors + warnings
 
 
 def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
@@ -103,7 +108,7 @@ def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
         _first_file(data)
         for name in _WITH_FILES
         for data in getattr(bpy.data, name)
-        if data not in told and data.users and not data.library and _is_outside(data)
+        if data not in told and data.users and _is_outside(data)
     }
     found = []
     for level, here, what, remedy in (
@@ -112,11 +117,14 @@ def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
     ):
         listed = sorted(path for path in paths if os.path.exists(path) == here)
         if listed:
-            rest = len(listed) - _MOST_LISTED
-            names = ", ".join(listed[:_MOST_LISTED]) + (f" and {rest} more" if rest > 0 else "")
-            message = f"Beside these materials, the file needs {what}: {names}."
+            message = f"Beside these materials, the file needs {what}: {_listed(listed)}."
             found.append(Finding(level, "File", message, remedy))
     return found
+
+
+def _listed(names: list[str]) -> str:
+    rest = len(names) - _MOST_LISTED
+    return ", ".join(names[:_MOST_LISTED]) + (f" and {rest} more" if rest > 0 else "")
 
 
 def _is_outside(data: bpy.types.ID) -> bool:
