@@ -4,11 +4,15 @@
 It reads and changes nothing, and is quick, for it runs before each render.
 """
 
+import itertools
+
 import bpy
 
 from ..core.finding import Finding, by_level
 from ..core.lamps import exact_warning
 from .exact import enabled_lamps, is_exact
+from .farm.image_files import images_in, missing_image
+from .farm.usage import Use, material_use
 from .find import our_nodes, surface_tree
 from .group import GROUP_ERRORS, script_node
 from .rendered import rendered_materials
@@ -42,11 +46,14 @@ def check_scene(
     """
     users: dict[bpy.types.NodeTree, list[bpy.types.Material]] = {}
     exact: list[bpy.types.Material] = []
+    uses: list[Use] = []
     for material in rendered_materials(scene):
         tree = surface_tree(material)
         nodes = list(our_nodes(tree)) if tree is not None else []
         for group in {node.node_tree for node in nodes}:
             users.setdefault(group, []).append(material)
+        if nodes:
+            uses.append(material_use(material))
         if any(map(is_exact, nodes)):
             exact.append(material)
     if not users:
@@ -56,6 +63,7 @@ def check_scene(
         found = _lights_findings(scene, exact)
     for group, materials in users.items():
         found += _group_findings(group, materials)
+    found += filter(None, itertools.starmap(missing_image, images_in(uses).items()))
     return by_level(found)
 
 

@@ -236,6 +236,29 @@ def test_lights_that_exact_misses(osl_scene):
     assert check(osl_scene) is None, "a muted node does nothing"
 
 
+def test_a_missing_picture_is_named_with_its_path(osl_scene, tmp_path):
+    import bpy
+
+    path = tmp_path / "wear.png"
+    image = bpy.data.images.new("Wear", 2, 2)
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()
+    image.source = "FILE"
+    tree = give_material().node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    assert check(osl_scene) == ()
+    path.unlink()
+    assert check(osl_scene) == (), "nothing uses it"
+    tree.links.new(node.outputs[0], tree.nodes["Microbounce Conductor"].inputs["Roughness"])
+    finding = the_finding(osl_scene)
+    assert (finding.level, finding.subject) == ("warning", "Image 'Wear' of material 'Ours'")
+    assert finding.message == f"Its file {path} is missing."
+    assert "Put the file back" in finding.remedy
+    node.mute = True
+    assert check(osl_scene) == ()
+
+
 def linked(tmp_path, prepare=lambda group: None):
     """A scene whose sphere has a local material around a group linked from a library."""
     import bpy

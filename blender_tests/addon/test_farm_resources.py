@@ -17,8 +17,10 @@ def scene(registered):
 
 
 def add_image(scene, image):
-    node = scene.material.node_tree.nodes.new("ShaderNodeTexImage")
+    tree = scene.material.node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
     node.image = image
+    tree.links.new(node.outputs[0], tree.nodes["Microbounce Diffuse"].inputs["Color"])
     return node
 
 
@@ -37,6 +39,9 @@ def test_images_that_are_not_in_the_file(scene, tmp_path):
     assert "outside this one" in message
     (tmp_path / "wear.png").unlink()
     assert "is missing" in the_finding(scene.scene)[2]
+    node.mute = True
+    assert the_finding(scene.scene)[1] == "File", "these materials do without"
+    node.mute = False
     node.image = data.images.new("Generated", 2, 2)
     assert findings(scene.scene) == []
     node.image.pixels[0] = 0.5

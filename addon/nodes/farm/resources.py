@@ -7,13 +7,13 @@ from collections.abc import Iterable
 import bpy
 
 from ...core.finding import Finding
+from .image_files import first_file, image_subject, images_in, is_outside, missing_image
 from .usage import Use
 
 # A big scene has hundreds.
 _MOST_LISTED = 5
 # Kinds of data-blocks whose content may be a file.
 _WITH_FILES = ("images", "movieclips", "sounds", "fonts", "volumes", "cache_files")
-_FILE_SOURCES = ("FILE", "SEQUENCE", "TILED", "MOVIE")
 _PACK_LIBRARIES = "Take File > External Data > Pack Linked Libraries, or make it all local."
 _PUT_BACK = "Put it back, load this file again, and take External Data > Pack Linked Libraries."
 _BRING_BACK = "Bring that back in the library, or remove what uses it here."
@@ -21,35 +21,21 @@ _BRING_BACK = "Bring that back in the library, or remove what uses it here."
 
 def image_findings(uses: Iterable[Use]) -> list[Finding]:
     """Return which images of used materials lie outside the file."""
-    images = {
-        node.image: use.material
-        for use in uses
-        for tree in use.trees
-        for node in tree.nodes
-        if getattr(node, "image", None) is not None
-    }
     found = []
-    for image, material in images.items():
-        remedy = "Pack it: File > External Data."
+    for image, material in images_in(uses).items():
+        missing = missing_image(image, material)
+        if missing is not None:
+            found.append(missing)
+            continue
         if image.is_dirty:
             message = "It has been painted on and not saved."
-        elif not _is_outside(image):
-            continue
-        elif os.path.exists(_first_file(image)):
+        elif is_outside(image):
             message = f"It is the file {image.filepath}, outside this one."
         else:
-            message = f"Its file {image.filepath} is missing."
-            remedy = "Put the file back, and pack it: File > External Data."
-        subject = f"Image '{image.name}' of material '{material.name}'"
-        found.append(Finding("warning", subject, message, remedy))
+            continue
+        remedy = "Pack it: File > External Data."
+        found.append(Finding("warning", image_subject(image, material), message, remedy))
     return found
-
-
-def _first_file(data: bpy.types.ID) -> str:
-    path = bpy.path.abspath(data.filepath, library=data.library)
-    if getattr(data, "source", "") == "TILED":
-        return path.replace("<UDIM>", str(data.tiles[0].number))
-    return path
 
 
 def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
@@ -101,14 +87,12 @@ def library_findings() -> list[Finding]:
 
 def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
     """Return which files the rest of the scene's data need, those of used materials left out."""
-    told = {
-        getattr(node, "image", None) for use in uses for tree in use.trees for node in tree.nodes
-    }
+    told = images_in(uses)
     paths = {
-        _first_file(data)
+        first_file(data)
         for name in _WITH_FILES
         for data in getattr(bpy.data, name)
-        if data not in told and data.users and _is_outside(data)
+        if data not in told and data.users and is_outside(data)
     }
     found = []
     for level, here, what, remedy in (
@@ -125,14 +109,6 @@ def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
 def _listed(names: list[str]) -> str:
     rest = len(names) - _MOST_LISTED
     return ", ".join(names[:_MOST_LISTED]) + (f" and {rest} more" if rest > 0 else "")
-
-
-def _is_outside(data: bpy.types.ID) -> bool:
-    if getattr(data, "packed_file", None) or not data.filepath or data.filepath == "<builtin>":
-        return False
-    return getattr(data, "source", "FILE") in _FILE_SOURCES and not getattr(
-        data, "packed_files", None
-    )
 
 
 def script_findings(uses: Iterable[Use]) -> list[Finding]:

@@ -35,12 +35,13 @@ def is_used(data: bpy.types.ID) -> bool:
 def material_uses() -> Iterator[Use]:
     """Yield every material of the file that has a group of ours."""
     for material in bpy.data.materials:
-        use = _use(material)
+        use = material_use(material)
         if use.groups:
             yield use
 
 
-def _use(material: bpy.types.Material) -> Use:
+def material_use(material: bpy.types.Material) -> Use:
+    """Return the node trees that `material` reaches."""
     trees, groups = [], []
     tree = surface_tree(material)
     waiting = [] if tree is None else [tree]
