@@ -244,3 +244,13 @@ def test_a_picture_of_a_linked_prop(scene, tmp_path):
     scene.scene["picture"] = wanted.images[0]
     bpy.ops.file.pack_libraries()
     assert "gone.png" in the_finding(scene.scene)[2], "packing a library leaves its files out"
+
+
+def test_the_command_fails_where_a_library_is_needed(scene, tmp_path, command):
+    library = linked_prop(tmp_path)
+    path = bpy.data.filepath
+    assert command("check", "--file", path)[0] == 1
+    library.unlink()
+    code, out, _ = command("check", "--file", path)
+    assert code == 1
+    assert "Error: Library '//prop.blend': It is missing, and with it 'Prop'." in out
