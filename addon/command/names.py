@@ -28,7 +28,8 @@ def named_item(word: str, items: tuple[Preset | Finish, ...], noun: str) -> Pres
 
 
 def _names(item: Preset | Finish) -> tuple[str, ...]:
-    return item.identifier, item.identifier.rpartition("/")[2], item.name.casefold()
+    identifier = item.identifier.casefold()
+    return identifier, identifier.rpartition("/")[2], item.name.casefold()
 
 
 def named_material(name: str) -> bpy.types.Material:

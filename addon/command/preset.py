@@ -2,10 +2,12 @@
 """The subcommand `preset`, which gives a material the values of a preset."""
 
 import argparse
+import sys
 
 from ..core.presets import finishes, presets
 from ..nodes.apply import ApplyError, apply_preset
 from ..nodes.group import GROUP_ERRORS
+from ..nodes.user_presets import load_user_presets
 from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file, saved
 from .names import named_item, named_material
 from .output import CommandError, emit
@@ -15,12 +17,17 @@ HELP = "Give a material the values of a preset."
 EXAMPLES = (
     "gold --material Ring --save-as new.blend",
     "conductor/gold --material Ring --finish brushed --save",
+    "user/conductor/mine --material Ring --save",
 )
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of this subcommand."""
-    parser.add_argument("name", metavar="NAME", help="the preset, such as gold or conductor/gold")
+    parser.add_argument(
+        "name",
+        metavar="NAME",
+        help="the preset, such as gold, conductor/gold or user/conductor/mine",
+    )
     parser.add_argument("--material", required=True, help="the material that gets the values")
     parser.add_argument("--finish", help="a finish on top, such as brushed")
     add_file_argument(parser)
@@ -29,7 +36,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Apply, save where that was asked, and print what was done."""
-    chosen = named_item(arguments.name, presets(), "preset")
+    own, problems = load_user_presets()
+    for problem in problems:
+        print(f"Left out: {problem}", file=sys.stderr)
+    chosen = named_item(arguments.name, (*presets(), *own), "preset")
     finish = arguments.finish and named_item(arguments.finish, finishes(), "finish")
     check_target(arguments)
     path = open_file(arguments)

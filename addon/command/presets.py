@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The subcommand `presets`, which lists the measured materials and the finishes."""
+"""The subcommand `presets`, which lists the measured materials, the finishes, the user's own."""
 
 import argparse
 
 from ..core.kinds import KINDS
 from ..core.presets import Finish, Preset, finishes, presets, problems
+from ..core.user_presets import is_users
+from ..nodes.user_presets import load_user_presets
 from .output import CommandError, emit
 
 NAME = "presets"
-HELP = "List the presets and finishes that the extension brings."
+HELP = "List presets and finishes: those that the extension brings, and your own (user/...)."
 EXAMPLES = ("", "--kind conductor --search gold", "--kind finish", "--json")
 
 _FINISH = "finish"
@@ -27,24 +29,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the list; 1 where nothing is in it."""
+    """Print the list; 1 where nothing is in it, or one of the user's was left out."""
     if problems():
         raise CommandError(" ".join(problems()))
+    own, wrong = load_user_presets()
     words = arguments.search.casefold().split()
     items = [
         item
-        for item in (*presets(), *finishes())
-        if arguments.kind in (None, item.identifier.partition("/")[0])
+        for item in (*presets(), *finishes(), *own)
+        if arguments.kind in (None, item.kind.lower() if isinstance(item, Preset) else _FINISH)
         and all(word in _searched(item) for word in words)
     ]
     width = max((len(item.identifier) for item in items), default=0)
     lines = [f"{item.identifier:{width}}  {item.name}: {item.description}" for item in items]
-    emit(
-        arguments,
-        {"presets": [_as_data(item) for item in items]},
-        "\n".join(lines) or "No preset is like that: search for less",
-    )
-    return 0 if items else 1
+    lines = lines or ["No preset is like that: search for less"]
+    lines += [f"Left out: {problem}" for problem in wrong]
+    data = {"presets": [_as_data(item) for item in items], "left_out": wrong}
+    emit(arguments, data, "\n".join(lines))
+    return 0 if items and not wrong else 1
 
 
 def _tags(item: Preset | Finish) -> tuple[str, ...]:
@@ -59,6 +61,7 @@ def _as_data(item: Preset | Finish) -> dict[str, object]:
     return {
         "identifier": item.identifier,
         "kinds": [item.kind] if isinstance(item, Preset) else list(item.kinds),
+        "own": is_users(item),
         "name": item.name,
         "description": item.description,
         "tags": list(_tags(item)),

@@ -11,6 +11,7 @@ from .parameter import Parameter, Value
 from .presets import Finish, Preset, PresetError, read
 
 SUFFIX = ".toml"
+_OWN = "user/"  # before the identifier: one of the extension's own may have the same name
 
 # These belong to one surface and are not saved: zero means "the surface's own".
 _SURFACES_OWN = ("NORMAL", "TANGENT")
@@ -77,8 +78,12 @@ def load(path: Path) -> Preset:
         raise PresetError(f"{path}: is nested too deeply and no preset. Delete it") from error
     if isinstance(found, Finish):
         raise PresetError(f"{path}: is a finish and not a preset. Apply it as a finish")
-    # One of the extension's own may have the same name.
-    return replace(found, identifier=f"user/{found.identifier}")
+    return replace(found, identifier=f"{_OWN}{found.identifier}")
+
+
+def is_users(item: Preset | Finish) -> bool:
+    """Return whether a user saved it."""
+    return item.identifier.startswith(_OWN)
 
 
 def _rounded(value: object) -> object:

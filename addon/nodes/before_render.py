@@ -41,12 +41,15 @@ def check_scene(
     Returns None where no material of ours is rendered.
     """
     users: dict[bpy.types.NodeTree, list[bpy.types.Material]] = {}
+    ours: list[bpy.types.Material] = []
     exact: list[bpy.types.Material] = []
     for material in rendered_materials(scene):
         tree = surface_tree(material)
         nodes = list(our_nodes(tree)) if tree is not None else []
         for group in {node.node_tree for node in nodes}:
             users.setdefault(group, []).append(material)
+        if nodes:
+            ours.append(material)
         if any(map(is_exact, nodes)):
             exact.append(material)
     if not users:
@@ -56,7 +59,7 @@ def check_scene(
         found = _lights_findings(scene, exact)
     for group, materials in users.items():
         found += _group_findings(group, materials)
-    return by_level(found)
+    return by_level(found + _image_findings(ours))
 
 
 def remember(scene: bpy.types.Scene, findings: tuple[Finding, ...]) -> bool:
@@ -122,6 +125,15 @@ def _group_findings(
         older = _UPDATE_LIBRARY if linked else _UPDATE
         findings.append(Finding("note", subject, _OTHER, _UPGRADE if newer else older))
     return findings
+
+
+def _image_findings(materials: list[bpy.types.Material]) -> list[Finding]:
+    # Imported here, so that the extension starts sooner.
+    from .farm.image_files import images_in, missing_image
+    from .farm.usage import material_use
+
+    found = (missing_image(*item) for item in images_in(map(material_use, materials)).items())
+    return [finding for finding in found if finding is not None]
 
 
 def _named(materials: list[bpy.types.Material]) -> str:

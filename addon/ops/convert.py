@@ -55,8 +55,11 @@ class _Converts(Polled):
     bl_options = {"REGISTER", "UNDO"}
 
     scope: bpy.props.EnumProperty(name="Scope", description="Which materials", items=_SCOPES)
+    # Not in the panel of the last operation: a conversion that was made is no dry run any more.
     dry_run: bpy.props.BoolProperty(
-        name="Dry Run", description="Report what would be done, and change nothing"
+        name="Dry Run",
+        description="Report what would be done, and change nothing",
+        options={"HIDDEN", "SKIP_SAVE"},
     )
 
     @classmethod
@@ -65,7 +68,10 @@ class _Converts(Polled):
         return "" if surface_materials() else _needs_materials("ALL")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Convert, and report every node that changes its look or stays, and a summary."""
+        """Convert, and report every node that changes its look or stays, and a summary.
+
+        A dry run is cancelled, for what is finished leaves a step to undo.
+        """
         materials = materials_in(context, self.scope)
         if not materials:
             self.report({"ERROR"}, _needs_materials(self.scope))
@@ -79,7 +85,7 @@ class _Converts(Polled):
             self._report(conversion)
         self.report({"INFO"}, summary(done, self.dry_run))
         self.warn(context)
-        return {"FINISHED"}
+        return {"CANCELLED" if self.dry_run else "FINISHED"}
 
     def warn(self, context: bpy.types.Context) -> None:
         """Warn of what stands in the way of the result; nothing does, unless a subclass says so."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Adds the extension's asset library to the preferences when asked, and takes it out again."""
 
+from functools import lru_cache
 from pathlib import Path
 
 import bpy
@@ -22,16 +23,34 @@ def library_folder(context: bpy.types.Context) -> Path | None:
 
     None where there is no library in it.
     """
-    chosen = preferences(context).library_path
-    folders = (Path(bpy.path.abspath(chosen)),) if chosen else _FOLDERS
-    return next((folder for folder in folders if (folder / BLEND).is_file()), None)
+    return _look(context)[0]
 
 
 def registered_libraries(context: bpy.types.Context) -> list[bpy.types.UserAssetLibrary]:
     """Return Blender's asset libraries that are ours: in a folder of ours, or with our file."""
+    libraries, (_, ours) = context.preferences.filepaths.asset_libraries, _look(context)
+    return [item for item in libraries if item.path in ours]
+
+
+def forget() -> None:
+    """Look at the folders again when they are next asked for."""
+    _look_at.cache_clear()
+
+
+def _look(context: bpy.types.Context) -> tuple[Path | None, frozenset[str]]:
+    chosen = preferences(context).library_path
     libraries = context.preferences.filepaths.asset_libraries
-    paths = [(item, Path(item.path).resolve()) for item in libraries if item.path]
-    return [item for item, path in paths if path in _FOLDERS or (path / BLEND).is_file()]
+    return _look_at(chosen and bpy.path.abspath(chosen), tuple(item.path for item in libraries))
+
+
+@lru_cache(maxsize=1)  # panels ask at every redraw, and a folder may lie on a network
+def _look_at(chosen: str, registered: tuple[str, ...]) -> tuple[Path | None, frozenset[str]]:
+    """Return the folder of the asset library, and which of the folders `registered` are ours."""
+    folders = (Path(chosen),) if chosen else _FOLDERS
+    folder = next((folder for folder in folders if (folder / BLEND).is_file()), None)
+    paths = [(path, Path(path).resolve()) for path in registered if path]
+    ours = (path for path, real in paths if real in _FOLDERS or (real / BLEND).is_file())
+    return folder, frozenset(ours)
 
 
 def _missing(context: bpy.types.Context) -> str:
@@ -63,6 +82,11 @@ class MICROBOUNCE_OT_register_library(Polled, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Add it; saving the preferences is left to the user's own setting."""
+        forget()
+        reason = self.obstacle(context)
+        if reason:  # since the panel was drawn
+            self.report({"ERROR"}, reason)
+            return {"CANCELLED"}
         libraries = context.preferences.filepaths.asset_libraries
         libraries.new(name=NAME, directory=str(library_folder(context)))
         context.preferences.is_dirty = True
@@ -86,6 +110,7 @@ class MICROBOUNCE_OT_unregister_library(Polled, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove it, and no other."""
+        forget()
         for library in registered_libraries(context):
             context.preferences.filepaths.asset_libraries.remove(library)
         context.preferences.is_dirty = True
@@ -93,3 +118,13 @@ class MICROBOUNCE_OT_unregister_library(Polled, bpy.types.Operator):
 
 
 CLASSES = (MICROBOUNCE_OT_register_library, MICROBOUNCE_OT_unregister_library)
+
+
+def register() -> None:
+    """Look at the folders anew: another version may have been installed into them."""
+    forget()
+
+
+def unregister() -> None:
+    """Drop what was found."""
+    forget()

@@ -13,15 +13,9 @@ from ..core.kinds import KINDS
 from ..core.presets import PresetError
 from ..core.user_presets import SUFFIX, load, preset_text, saved_parameters
 from ..nodes.apply import material_node, node_kind
+from ..nodes.user_presets import user_presets
 from .polled import Polled
 from .presets import AppliesPreset, shown_material
-
-
-def user_presets(kind: str) -> list[Path]:
-    """Return the files of the users' presets of a kind, by name."""
-    folders = bpy.utils.preset_paths(f"microbounce/{kind.lower()}")
-    found = [path for folder in folders for path in Path(folder).glob(f"*{SUFFIX}")]
-    return sorted(found, key=lambda path: path.name.casefold())
 
 
 def shown_name(path: Path) -> str:

@@ -7,6 +7,7 @@ from .. import preset_icons
 from ..core.kinds import KINDS
 from ..core.presets import PresetError, finishes, preset, presets, problems
 from ..nodes.apply import PRESET_KEY, material_node, node_kind
+from ..nodes.user_presets import user_presets
 from ..ops.kinds import KIND_ITEMS
 from ..ops.library import (
     MICROBOUNCE_OT_register_library,
@@ -24,7 +25,6 @@ from ..ops.user_presets import (
     MICROBOUNCE_OT_remove_user_preset,
     MICROBOUNCE_OT_save_preset,
     shown_name,
-    user_presets,
 )
 from .panels import draw_lines, draw_text
 

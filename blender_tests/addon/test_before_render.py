@@ -3,14 +3,7 @@
 
 import pytest
 
-from addon.core.kinds import KINDS
-from blender_tests.addon.support import (
-    give_material,
-    native_material,
-    small_scene,
-    sphere,
-    surface_material,
-)
+from blender_tests.addon.support import give_material, native_material, sphere
 
 pytestmark = pytest.mark.usefixtures("compiled_once")
 
@@ -234,60 +227,6 @@ def test_lights_that_exact_misses(osl_scene):
     assert "is black under 'Area' (Multiple Importance off)" in the_finding(osl_scene).message
     node.mute = True
     assert check(osl_scene) is None, "a muted node does nothing"
-
-
-def linked(tmp_path, prepare=lambda group: None):
-    """A scene whose sphere has a local material around a group linked from a library."""
-    import bpy
-
-    from addon.nodes.group import add_group_node, material_group
-
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    group = material_group("CONDUCTOR")
-    prepare(group)
-    path = tmp_path / "library.blend"
-    bpy.data.libraries.write(str(path), {group})
-    scene, ball = small_scene(osl=True)
-    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
-        wanted.node_groups = [KINDS["CONDUCTOR"].name]
-    material, tree, output = surface_material("Ours")
-    node = add_group_node(tree, bpy.data.node_groups[KINDS["CONDUCTOR"].name])
-    tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
-    ball.data.materials.append(material)
-    return scene, path
-
-
-def test_a_linked_group(registered, tmp_path):
-    scene, _ = linked(tmp_path)
-    assert check(scene) == ()
-
-
-def test_a_linked_group_of_another_version(registered, tmp_path):
-    scene, _ = linked(tmp_path, older)
-    finding = the_finding(scene)
-    assert (finding.level, finding.subject) == ("note", "Material 'Ours'")
-    assert "Update Materials in the library file" in finding.remedy
-
-
-def test_a_linked_group_without_bytecode(registered, tmp_path):
-    scene, _ = linked(tmp_path, no_bytecode)
-    finding = the_finding(scene)
-    assert finding.level == "warning"
-    assert "in the library file" in finding.remedy
-
-
-def test_a_missing_library(registered, tmp_path):
-    import bpy
-
-    _, library = linked(tmp_path)
-    user = str(tmp_path / "user.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=user)
-    library.unlink()
-    bpy.ops.wm.open_mainfile(filepath=user)
-    finding = the_finding(bpy.context.scene)
-    assert finding.level == "error"
-    assert "library file of its node group is missing" in finding.message
-    assert "Find Missing Files" in finding.remedy
 
 
 def test_a_damaged_installation_is_a_note(osl_scene, monkeypatch):

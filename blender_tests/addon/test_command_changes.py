@@ -6,6 +6,7 @@ import json
 import pytest
 
 from addon.core.presets import finishes, presets
+from addon.core.user_presets import preset_text
 from blender_tests.addon.support import native_material, small_scene
 
 pytestmark = pytest.mark.usefixtures("compiled_once")
@@ -36,7 +37,7 @@ def node_kinds(bpy, path, material):
 def test_presets_are_listed_and_searched(command):
     code, out, _ = command("presets", "--json")
     assert code == 0
-    listed = json.loads(out)["presets"]
+    listed = [item for item in json.loads(out)["presets"] if not item["own"]]
     assert len(listed) == len(presets()) + len(finishes())
     gold = next(item for item in listed if item["identifier"] == "conductor/gold")
     assert gold["kinds"] == ["CONDUCTOR"]
@@ -77,6 +78,58 @@ def test_a_preset_is_applied_and_saved_as_another_file(command, file, registered
     assert "CONDUCTOR" in node_kinds(registered, target, "Ours")
     assert file.read_bytes() == before
     assert command(*arguments, "--save-as", target)[0] == 2, "never overwrites silently"
+
+
+@pytest.fixture
+def own(registered, tmp_path, monkeypatch):
+    """The folder of the user's presets, with a metal in it that is called "My Gold"."""
+    folder = tmp_path / "presets"
+    path = folder / "microbounce" / "conductor" / "My_Gold.toml"
+    path.parent.mkdir(parents=True)
+    path.write_text(preset_text("CONDUCTOR", "My Gold", {"Roughness": 0.75}), encoding="utf-8")
+
+    def preset_paths(subdir):
+        return [str(folder / subdir)] if (folder / subdir).is_dir() else []
+
+    monkeypatch.setattr(registered.utils, "preset_paths", preset_paths)
+    return path
+
+
+def test_the_users_own_presets_are_listed_and_marked(command, own):
+    code, out, _ = command("presets", "--json")
+    result = json.loads(out)
+    assert (code, result["left_out"]) == (0, [])
+    (mine,) = [item for item in result["presets"] if item["own"]]
+    assert (mine["identifier"], mine["kinds"]) == ("user/conductor/My_Gold", ["CONDUCTOR"])
+    code, out, _ = command("presets", "--kind", "conductor", "--search", "my gold")
+    assert (code, out) == (0, "user/conductor/My_Gold  My Gold: Saved by a user\n")
+    assert command("presets", "--kind", "finish", "--search", "my gold")[0] == 1
+
+
+@pytest.mark.parametrize("name", ["user/conductor/My_Gold", "my_gold", "My Gold"])
+def test_one_of_the_users_own_is_applied(command, file, own, registered, name):
+    argv = ("preset", name, "--material", "Ours", "--file", file, "--save", "--json")
+    code, out, _ = command(*argv)
+    assert (code, json.loads(out)["preset"]) == (0, "user/conductor/My_Gold")
+    assert "CONDUCTOR" in node_kinds(registered, file, "Ours")
+    own.write_text(own.read_text(encoding="utf-8").replace("My Gold", "Gold"), encoding="utf-8")
+    _, _, err = command("preset", "gold", "--material", "Ours", "--file", file)
+    assert "use one of conductor/gold, user/conductor/My_Gold" in err
+
+
+def test_a_damaged_one_of_the_users_is_named_and_the_others_stay(command, file, own):
+    own.write_text("damaged", encoding="utf-8")
+    code, out, _ = command("presets")
+    assert code == 1
+    assert f"Left out: {own}: is not TOML" in out
+    code, out, _ = command("presets", "--json")
+    result = json.loads(out)
+    assert len(result["presets"]) == len(presets()) + len(finishes())
+    assert len(result["left_out"]) == 1
+    code, _, err = command("preset", "my_gold", "--material", "Ours", "--file", file)
+    assert code == 2
+    assert f"Left out: {own}: is not TOML" in err
+    assert command("preset", "gold", "--material", "Ours", "--file", file)[0] == 0
 
 
 def test_without_save_nothing_is_saved(command, file):

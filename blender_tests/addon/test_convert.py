@@ -5,6 +5,7 @@ import pytest
 
 from addon.core.kinds import KINDS
 from addon.nodes.convert import TO_NATIVE, plan, to_microbounce, to_native
+from addon.nodes.convert.formula import INSERTED_KEY
 from addon.nodes.group import new_material
 from blender_tests.addon.node_trees import (
     DIFFUSE,
@@ -52,7 +53,7 @@ CASES = {
     "diffuse": (
         DIFFUSE,
         {"Roughness": 0.125, "Color": (0.1, 0.2, 0.3, 1.0)},
-        {"Color": "Color", "Normal": "Normal"},
+        {"Color": "Color", "Roughness": "Roughness", "Normal": "Normal"},
         "DIFFUSE",
     ),
     "principled metal": (
@@ -72,13 +73,13 @@ CASES = {
     "principled glass": (
         PRINCIPLED,
         {"Transmission_Weight": 1.0, "Base_Color": (0.81, 0.49, 0.25, 1.0)},
-        {"Roughness": "Roughness", "IOR": "IOR", "Normal": "Normal"},
+        {"Base Color": "Color", "Roughness": "Roughness", "IOR": "IOR", "Normal": "Normal"},
         "DIELECTRIC",
     ),
     "principled matte": (
         PRINCIPLED,
         {"Specular_IOR_Level": 0.0, "Diffuse_Roughness": 0.2},
-        {"Base Color": "Color", "Normal": "Normal"},
+        {"Base Color": "Color", "Diffuse Roughness": "Roughness", "Normal": "Normal"},
         "DIFFUSE",
     ),
 }
@@ -102,7 +103,13 @@ def case(request, file):
 
 
 def sources(node):
-    return {s.name: s.links[0].from_node.name for s in node.inputs if s.is_linked}
+    return {s.name: source(s) for s in node.inputs if s.is_linked}
+
+
+def source(socket):
+    """The name of the node that a link comes from; those that a conversion put in do not count."""
+    node = socket.links[0].from_node
+    return source(node.inputs[0]) if INSERTED_KEY in node else node.name
 
 
 def number(value):

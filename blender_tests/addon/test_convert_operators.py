@@ -83,7 +83,7 @@ def test_a_dry_run_reports_every_node_and_changes_nothing(objects, capfd):
     before = {m.name: dump(m.node_tree) for m in objects.data.materials}
     for name in ("to_microbounce", "to_native"):
         operator = getattr(objects.ops.microbounce, name)
-        assert operator(scope="ALL", dry_run=True) == {"FINISHED"}
+        assert operator(scope="ALL", dry_run=True) == {"CANCELLED"}
     assert {m.name: dump(m.node_tree) for m in objects.data.materials} == before
     assert not objects.data.node_groups
     text = said(capfd)
@@ -135,6 +135,17 @@ def test_undo_brings_the_native_nodes_back(objects):
     assert len(converted(objects)) == 3
     objects.ops.microbounce.to_native(scope="ALL")
     assert {m.name: dump(m.node_tree) for m in objects.data.materials} == before
+
+
+def test_a_dry_run_leaves_nothing_to_undo(objects):
+    objects.ops.ed.undo_push(message="before")
+    objects.data.materials["Glass"]["step"] = 1
+    objects.ops.ed.undo_push(message="step")
+    for name in ("to_microbounce", "to_native"):
+        operator = getattr(objects.ops.microbounce, name)
+        operator("EXEC_DEFAULT", True, scope="ALL", dry_run=True)
+    objects.ops.ed.undo()
+    assert "step" not in named(objects, "Glass"), "the step before the dry runs is the last"
 
 
 def test_a_saved_file_keeps_the_way_back(objects, tmp_path):

@@ -49,7 +49,9 @@ def test_manifest_agrees_with_the_code_and_the_rules():
     assert manifest["blender_version_min"] == "4.5.0"
     assert len(manifest["tagline"]) <= 64
     assert manifest["tagline"][-1].isalnum()
-    assert "permissions" not in manifest
+    assert list(manifest["permissions"]) == ["files"], "neither network nor clipboard"
+    assert len(manifest["permissions"]["files"]) <= 64
+    assert manifest["permissions"]["files"][-1].isalnum()
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,10 @@ def scene(registered):
 
 
 def add_image(scene, image):
-    node = scene.material.node_tree.nodes.new("ShaderNodeTexImage")
+    tree = scene.material.node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
     node.image = image
+    tree.links.new(node.outputs[0], tree.nodes["Microbounce Diffuse"].inputs["Color"])
     return node
 
 
@@ -37,6 +39,9 @@ def test_images_that_are_not_in_the_file(scene, tmp_path):
     assert "outside this one" in message
     (tmp_path / "wear.png").unlink()
     assert "is missing" in the_finding(scene.scene)[2]
+    node.mute = True
+    assert the_finding(scene.scene)[1] == "File", "these materials do without"
+    node.mute = False
     node.image = data.images.new("Generated", 2, 2)
     assert findings(scene.scene) == []
     node.image.pixels[0] = 0.5
@@ -146,21 +151,106 @@ def linked(scene, tmp_path, relative, what="materials"):
     return bpy.context.scene, library
 
 
+def reopened():
+    """Load the file again, as it was saved; return its scene."""
+    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+    return bpy.context.scene
+
+
+@pytest.mark.parametrize("relative", [True, False])
 @pytest.mark.parametrize("what", ["materials", "node_groups"])
-def test_libraries(scene, tmp_path, what):
-    user, library = linked(scene, tmp_path, relative=True, what=what)
+def test_libraries(scene, tmp_path, what, relative):
+    user, library = linked(scene, tmp_path, relative=relative, what=what)
+    path = "//library.blend" if relative else str(library)
     level, subject, message = the_finding(user)
-    assert (level, subject) == ("note", "Library '//library.blend'")
+    assert (level, subject) == ("warning", f"Library '{path}'")
+    assert "A farm needs this file too" in message
     assert "'Microbounce Diffuse'" in message
     library.unlink()
-    bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
-    found = findings(bpy.context.scene)
-    assert [(f.level, f.subject) for f in found] == [("error", "Library '//library.blend'")]
-    assert "is missing" in found[0].message
+    level, subject, message = the_finding(reopened())
+    assert (level, subject) == ("error", f"Library '{path}'")
+    assert "is missing, and with it '" in message
 
 
-def test_a_library_by_an_absolute_path(scene, tmp_path):
-    user, library = linked(scene, tmp_path, relative=False)
-    level, subject, message = the_finding(user)
-    assert (level, subject) == ("warning", f"Library '{library}'")
-    assert "absolute path" in message
+def linked_prop(tmp_path):
+    """A file of ours with a prop that is linked and has nothing of ours; the library's path."""
+    library, user = tmp_path / "prop.blend", tmp_path / "user.blend"
+    prop = bpy.data.objects.new("Prop", bpy.data.meshes.new("Mesh"))
+    bpy.data.libraries.write(str(library), {prop})
+    bpy.ops.wm.save_as_mainfile(filepath=str(user))
+    with bpy.data.libraries.load(str(library), link=True, relative=True) as (_, wanted):
+        wanted.objects = ["Prop"]
+    bpy.data.objects.remove(prop)
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    bpy.ops.wm.save_as_mainfile(filepath=str(user))
+    return library
+
+
+@pytest.mark.parametrize("ours", [True, False])
+def test_a_prop_in_a_library(scene, tmp_path, ours):
+    if not ours:
+        scene.sphere.data.materials.clear()
+        bpy.data.materials.remove(scene.material)
+    library = linked_prop(tmp_path)
+    level, subject, message = the_finding(reopened())
+    assert (level, subject) == ("warning", "Library '//prop.blend'")
+    assert "'Prop'" in message
+    library.unlink()
+    level, _, message = the_finding(reopened())
+    assert (level, message) == ("error", "It is missing, and with it 'Prop'.")
+
+
+def test_a_library_without_what_is_linked(scene, tmp_path):
+    library = linked_prop(tmp_path)
+    bpy.data.libraries.write(str(library), {bpy.data.meshes.new("Other")})
+    level, _, message = the_finding(reopened())
+    assert (level, message) == ("error", "It holds no 'Prop', which this file needs.")
+
+
+def test_packing_or_making_local_is_a_remedy(scene, tmp_path):
+    library = linked_prop(tmp_path)
+    bpy.ops.file.pack_libraries()
+    bpy.ops.wm.save_mainfile()
+    library.rename(library.with_name("elsewhere.blend"))
+    assert findings(reopened()) == [], "it is in the file"
+    assert not bpy.data.objects["Prop"].is_missing
+    bpy.data.objects["Prop"].make_local()
+    bpy.data.objects["Prop"].data.make_local()
+    assert findings(bpy.context.scene) == []
+
+
+def test_single_data_blocks_that_are_packed(scene, tmp_path):
+    library = linked_prop(tmp_path)
+    if bpy.app.version < (5, 0, 0):
+        assert not hasattr(bpy.data, "pack_linked_ids_hierarchy")
+        return
+    prop = bpy.data.objects["Prop"]
+    prop.user_remap(bpy.data.pack_linked_ids_hierarchy(prop))
+    bpy.ops.wm.save_mainfile()
+    library.unlink()
+    assert findings(reopened()) == []
+    assert bpy.data.objects["Prop"].is_linked_packed
+
+
+def test_a_picture_of_a_linked_prop(scene, tmp_path):
+    library, user = tmp_path / "prop.blend", tmp_path / "user.blend"
+    sky = bpy.data.images.new("Sky", 2, 2)
+    sky.source, sky.filepath = "FILE", str(tmp_path / "gone.png")
+    bpy.data.libraries.write(str(library), {sky}, fake_user=True)
+    bpy.data.images.remove(sky)
+    bpy.ops.wm.save_as_mainfile(filepath=str(user))
+    with bpy.data.libraries.load(str(library), link=True, relative=True) as (_, wanted):
+        wanted.images = ["Sky"]
+    scene.scene["picture"] = wanted.images[0]
+    bpy.ops.file.pack_libraries()
+    assert "gone.png" in the_finding(scene.scene)[2], "packing a library leaves its files out"
+
+
+def test_the_command_fails_where_a_library_is_needed(scene, tmp_path, command):
+    library = linked_prop(tmp_path)
+    path = bpy.data.filepath
+    assert command("check", "--file", path)[0] == 1
+    library.unlink()
+    code, out, _ = command("check", "--file", path)
+    assert code == 1
+    assert "Error: Library '//prop.blend': It is missing, and with it 'Prop'." in out

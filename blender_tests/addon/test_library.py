@@ -2,6 +2,7 @@
 """The asset library: what it holds, how it gets into the zip and the preferences."""
 
 import uuid
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -191,10 +192,45 @@ def test_the_folder_of_the_preferences_goes_before_the_extensions_own(offered, s
         ops.register_library()
     shared.mkdir()
     (shared / build_assets.BLEND).write_bytes(b"")
+    assert not ops.register_library.poll(), "panels remember the answer"
+    stored.library_path = ""
+    ops.register_library.poll()
+    stored.library_path = str(shared)
     ops.register_library()
     assert [item.path for item in libraries][-1] == str(shared)
     stored.library_path = ""  # the entry is still known as ours
     assert ops.unregister_library() == {"FINISHED"}
+
+
+def test_the_disk_is_looked_at_when_something_changed(offered, stored, monkeypatch, tmp_path):
+    from addon.ops import library as ops
+
+    bpy, folder = offered
+    libraries = bpy.context.preferences.filepaths.asset_libraries
+    looked = []
+    is_file = Path.is_file
+    monkeypatch.setattr(Path, "is_file", lambda path: looked.append(path) or is_file(path))
+
+    def looks():
+        looked.clear()
+        for _ in range(3):
+            ops.registered_libraries(bpy.context)
+            bpy.ops.microbounce.register_library.poll()
+        return len(looked)
+
+    assert looks()
+    assert looks() == 0
+    stored.library_path = str(tmp_path)
+    assert looks()
+    item = libraries.new(name="Other", directory=str(tmp_path))
+    assert looks()
+    assert looks() == 0
+    libraries.remove(item)
+    stored.library_path = ""
+    assert looks()
+    (folder / ops.BLEND).unlink()
+    with pytest.raises(RuntimeError, match="has no asset library"):
+        bpy.ops.microbounce.register_library()
 
 
 def test_library_and_operators_agree_on_the_file_name():

@@ -46,7 +46,7 @@ def shown_node(bpy, kind, **values):
 
 def test_what_is_saved_is_what_comes_back(registered, folder, kind):
     from addon.nodes.apply import PRESET_KEY, material_node
-    from addon.ops.user_presets import user_presets
+    from addon.nodes.user_presets import user_presets
 
     values = {"Roughness": 0.123, "Distribution": 1, "Quality": 2, "Kernel": 0.05, "Walks": 7}
     _, node = shown_node(registered, kind, **values)
@@ -175,7 +175,8 @@ def test_files_that_are_none_are_refused(registered, folder, tmp_path):
 
 @pytest.mark.parametrize("name", ["Löwe", "..", "a/b", "空"])
 def test_the_menu_shows_the_name_as_it_was_given(registered, folder, name):
-    from addon.ops.user_presets import shown_name, user_presets
+    from addon.nodes.user_presets import user_presets
+    from addon.ops.user_presets import shown_name
 
     shown_node(registered, "DIFFUSE")
     registered.ops.microbounce.save_preset(name=name)
@@ -188,7 +189,7 @@ def test_the_menu_shows_the_name_as_it_was_given(registered, folder, name):
 
 
 def test_a_saved_preset_can_be_removed(registered, folder, kind):
-    from addon.ops.user_presets import user_presets
+    from addon.nodes.user_presets import user_presets
 
     shown_node(registered, kind)
     ops = registered.ops.microbounce

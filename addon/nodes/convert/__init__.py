@@ -3,7 +3,8 @@
 
 A converted node keeps the state of the one it was made from. On the way back that state returns,
 with what was changed in between translated. Names, places and looks of nodes, and links and
-animation of inputs that both have, go along both ways.
+animation of inputs that both have, go along both ways; links whose values need a formula go through
+nodes for it.
 """
 
 from collections.abc import Iterable
@@ -96,7 +97,7 @@ def _apply(tree: bpy.types.NodeTree, step: Step, new: bpy.types.Node) -> None:
     write_state(new, State(new.bl_idname, made.settings, made.values, [], hidden, panels))
     animated = animated_inputs(old, step.curves)
     lost = lost_links(old, made.carried)
-    take_place(tree, old, new, made.carried, used.links if used is not None else [], step.curves)
+    take_place(tree, old, new, made, used.links if used is not None else [], step.curves)
     # A node that a conversion made and nobody changed is made again by converting afresh.
     untouched = used is not None and used.fresh and used.made.holds_the_same(step.state)
     if not untouched or lost:

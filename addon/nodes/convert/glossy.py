@@ -8,8 +8,13 @@ one above 0. Ours are r^2 / s and r^2 s with s = sqrt(1 - 0.9 A).
 import math
 
 from .bounces import distribution_to_native, distribution_to_ours
+from .formula import Formula, Operation
 from .state import State
 from .translation import Family, NotConvertibleError, Translation, need_fixed, need_value
+
+# Rough along the other direction, a quarter turn away.
+_QUARTER_MORE = Formula((Operation("ADD", 0.25), Operation("FRACT")))
+_QUARTER_LESS = Formula((Operation("ADD", -0.25), Operation("FRACT")))
 
 # The smallest s, at A = 1.
 _SHORTEST = math.sqrt(1.0 - 0.9)
@@ -57,11 +62,11 @@ def edge_tint(reflectance: float) -> float:
 
 
 def _anisotropy_to_ours(native: State, made: Translation) -> None:
-    need_fixed(native, "Anisotropy", "that of Glossy BSDF means something else")
+    # Nodes could turn its size into ours, but its sign turns Rotation as well.
+    need_fixed(native, "Anisotropy", "its sign decides on our Rotation too")
     a = min(max(native.values["Anisotropy"], -0.99), 0.99)
     if a > 0.0:
-        # Rough along the other direction, a quarter turn away.
-        made.derive(native, "Rotation", "Rotation", lambda turns: (turns + 0.25) % 1.0)
+        made.derive(native, "Rotation", "Rotation", _QUARTER_MORE, undoes=_QUARTER_LESS)
     else:
         made.carry(native, "Rotation")
     s = 1.0 - abs(a)
@@ -79,9 +84,10 @@ def _back(ours: State, was: State | None) -> Translation:
     made = Translation(GLOSSY.idname)
     made.carry(ours, "Roughness", "Normal", "Tangent", Color="Base Color")
     across = was is not None and was.values["Anisotropy"] > 0.0
-    made.derive(ours, "Anisotropy", "Anisotropy", lambda strength: _to_glossy(strength, across))
+    need_fixed(ours, "Anisotropy", "that of Glossy BSDF means something else")
+    made.values["Anisotropy"] = _to_glossy(ours.values["Anisotropy"], across)
     if across:
-        made.derive(ours, "Rotation", "Rotation", lambda turns: (turns - 0.25) % 1.0)
+        made.derive(ours, "Rotation", "Rotation", _QUARTER_LESS, undoes=_QUARTER_MORE)
     else:
         made.carry(ours, "Rotation")
     made.notes.append("Glossy BSDF reflects the same at every angle: it has no Edge Tint")

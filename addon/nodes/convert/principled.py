@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Principled BSDF, where it is a metal, a glass or a matte surface and nothing besides."""
 
-import math
-from collections.abc import Callable
-
 from .bounces import distribution_to_native, distribution_to_ours, note_isotropic
 from .diffuse import matte_roughness_to_native, matte_roughness_to_ours
+from .formula import Formula, Operation
 from .state import State
-from .translation import Family, NotConvertibleError, Translation, need_fixed, need_value
+from .translation import Family, NotConvertibleError, Translation, need_value
+
+# Light that passes through both sides of a glass takes the base colour.
+_ROOT = Formula((Operation("GAMMA", 0.5),))
+_SQUARE = Formula((Operation("GAMMA", 2.0),))
 
 _BLACK = [0.0, 0.0, 0.0, 1.0]
 _WHITE = [1.0, 1.0, 1.0, 1.0]
@@ -63,9 +65,8 @@ def _glass_to_ours(native: State) -> Translation:
     need_value(native, "Specular Tint", "our glass tints all light alike", _WHITE)
     made = Translation("DIELECTRIC")
     made.carry(native, "Roughness", "IOR", "Normal")
-    # Light that passes through both sides of a glass takes the base colour.
-    made.derive(native, "Base Color", "Color", _each(math.sqrt))
-    if native.values["Base Color"][:3] != _WHITE[:3]:
+    made.derive(native, "Base Color", "Color", _ROOT, undoes=_SQUARE)
+    if "Base Color" in native.varying or native.values["Base Color"][:3] != _WHITE[:3]:
         made.notes.append(
             "Color is the square root of Base Color, and tints reflections too, which are white in "
             "Principled BSDF: strong colours become darker"
@@ -108,13 +109,12 @@ def _metal_to_native(ours: State, made: Translation) -> None:
 
 def _glass_to_native(ours: State, made: Translation) -> None:
     made.carry(ours, "Roughness", "IOR", "Normal")
-    made.derive(ours, "Color", "Base Color", _each(lambda component: component * component))
+    made.derive(ours, "Color", "Base Color", _SQUARE, undoes=_ROOT)
     distribution_to_native(ours, made)
     note_isotropic(ours, made, "The glass of Principled BSDF")
 
 
 def _matte_to_native(ours: State, made: Translation) -> None:
-    need_fixed(ours, "Roughness", "its values would need a formula")
     made.carry(ours, "Normal", Base_Color="Color")
     matte_roughness_to_native(ours, "Diffuse Roughness", made)
 
@@ -124,11 +124,6 @@ _TO_NATIVE = {
     "DIELECTRIC": _glass_to_native,
     "DIFFUSE": _matte_to_native,
 }
-
-
-def _each(formula: Callable[[float], float]) -> Callable[[list[float]], list[float]]:
-    """Return `formula` for the three components of a colour, taken from 0 to 1."""
-    return lambda color: [*(formula(max(0.0, min(1.0, c))) for c in color[:3]), color[3]]
 
 
 PRINCIPLED = Family("ShaderNodeBsdfPrincipled", _forward, _back)

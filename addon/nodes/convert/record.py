@@ -2,7 +2,7 @@
 """What a converted node keeps of the one it was made from, so that the way back loses nothing."""
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import bpy
 
@@ -71,7 +71,7 @@ def merged(then: Translation, now: Translation, was: State) -> Translation:
 
     `then` is the translation of the node as it was made from `was`, `now` that of what it is now.
     """
-    made = Translation(now.target, was.values.copy(), was.settings.copy(), now.carried, now.notes)
+    made = replace(now, values=was.values.copy(), settings=was.settings.copy())
     for old, new, kept in (
         (then.values, now.values, made.values),
         (then.settings, now.settings, made.settings),

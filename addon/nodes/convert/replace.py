@@ -6,6 +6,7 @@ import bpy
 from .animation import Curves, move_curves
 from .record import RECORD_KEY, Link
 from .state import inputs_by_name
+from .translation import Translation
 
 # What every node has, and keeps as it is.
 _LOOKS = (
@@ -18,21 +19,28 @@ def take_place(
     tree: bpy.types.NodeTree,
     old: bpy.types.Node,
     new: bpy.types.Node,
-    carried: dict[str, str],
+    made: Translation,
     links: list[Link],
     curves: Curves,
 ) -> None:
     """Give `new` the links, animation, looks, place and name of `old`, and remove `old`.
 
-    `carried` are the names of inputs of `old` to those of `new`; both have an output BSDF.
-    `links` are made besides, as far as their nodes are still there. A link to an input that is not
-    in `carried` is lost.
+    `made` says where the links of each input of `old` go; both have an output BSDF. `links` are
+    made besides, as far as their nodes are still there. Links that `made` does not carry are lost.
     """
     was_active = tree.nodes.active == old
     inputs, targets = inputs_by_name(old), inputs_by_name(new)
-    for name, other in carried.items():
+    new.parent = old.parent
+    new.location = old.location
+    unused: list[bpy.types.Node] = []
+    for name, other in made.carried.items():
         for link in inputs[name].links:
-            _link(tree, link.from_socket, targets[other], link.is_muted)
+            source = link.from_socket
+            if name in made.through:
+                formula, undoes = made.through[name]
+                source, inserted = undoes.inserted(source) or (formula.insert(source, new), [])
+                unused += inserted
+            _link(tree, source, targets[other], link.is_muted)
     for link in list(old.outputs["BSDF"].links):
         _link(tree, new.outputs["BSDF"], link.to_socket, link.is_muted)
     for link in links:
@@ -44,12 +52,13 @@ def take_place(
     for key, value in old.items():
         if key != RECORD_KEY:
             new[key] = value
-    new.parent = old.parent
-    new.location = old.location
     # Blender deletes what animates a node with the node, and lets it follow a new name.
-    move_curves(curves, list(inputs), new, carried)
+    move_curves(curves, list(inputs), new, made.carried)
     name = old.name
     tree.nodes.remove(old)
+    for node in unused:
+        if not node.outputs[0].is_linked:
+            tree.nodes.remove(node)
     new.name = name
     if was_active:
         tree.nodes.active = new

@@ -123,7 +123,7 @@ def _step(tree: bpy.types.NodeTree, node: bpy.types.Node, direction: str, curves
     else:
         made, record, notes = _to_native(kind, state, record)
         target = _class_name(made.target)
-    stuck = sorted(animated - set(made.carried))
+    stuck = sorted(animated - (made.carried.keys() - made.through.keys()))
     if stuck:
         raise NotConvertibleError(
             f"{', '.join(stuck)}: animated, which {target} cannot take. Remove the animation"

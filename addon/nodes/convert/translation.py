@@ -5,11 +5,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from .formula import Formula
 from .state import State, Value
 
 
 class NotConvertibleError(Exception):
     """The node has no counterpart; the message says why, and the remedy."""
+
+
+class Through(NamedTuple):
+    """What a link goes through: nodes for `formula`, or it loses those that are for `undoes`."""
+
+    formula: Formula
+    undoes: Formula
 
 
 @dataclass
@@ -19,7 +27,8 @@ class Translation:
     target   -- the kind of a node of ours, or the type of a native one
     values   -- values of its inputs by name
     settings -- its properties by identifier
-    carried  -- names of inputs to the target's names, where links and animation go along unchanged
+    carried  -- names of inputs to the target's names, where links and animation go along
+    through  -- what links of some of these go through; the others go along unchanged
     notes    -- what will not look the same, for users
     """
 
@@ -27,6 +36,7 @@ class Translation:
     values: dict[str, Value] = field(default_factory=dict)
     settings: dict[str, Value] = field(default_factory=dict)
     carried: dict[str, str] = field(default_factory=dict)
+    through: dict[str, Through] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
 
     def carry(self, source: State, *names: str, **renamed: str) -> None:
@@ -38,13 +48,17 @@ class Translation:
                 self.carried[old] = new
                 self.values[new] = source.values[old]
 
-    def derive(self, source: State, name: str, target: str, formula: Callable) -> None:
-        """Take an input over by a formula of its value, which a link or animation cannot follow.
+    def derive(
+        self, source: State, name: str, target: str, formula: Formula, undoes: Formula
+    ) -> None:
+        """Take an input over by a formula of its value; a link goes through nodes for it.
 
-        Raises NotConvertibleError where it is linked or animated.
+        `undoes` is the formula of the other direction.
         """
-        need_fixed(source, name, "its values would need a formula")
         self.values[target] = formula(source.values[name])
+        if name in source.varying:
+            self.carried[name] = target
+            self.through[name] = Through(formula, undoes)
 
 
 class Family(NamedTuple):

@@ -22,18 +22,18 @@ def farm_findings(scene: bpy.types.Scene) -> list[Finding]:
     """Return what may make our materials in this file render differently without the extension.
 
     Nothing is changed. Where a material is used by nothing, its findings are notes. A file without
-    our materials has none.
+    our materials has none but of its libraries, which may hold some.
     """
     uses = list(material_uses())
     used = [use for use in uses if use.used]
-    found = scene_findings(scene) if any(use.groups for use in used) else []
+    found = library_findings() + (scene_findings(scene) if used else [])
     for group, materials in _by_group(uses).items():
         needed = any(use.used for use in materials)
         found += [
             finding if needed else replace(finding, level="note")
             for finding in shader_findings(group)
         ]
-    found += library_findings(used) + image_findings(used) + script_findings(used)
+    found += image_findings(used) + script_findings(used)
     return found + (node_file_findings(used) + other_file_findings(used) if used else [])
 
 

@@ -7,46 +7,35 @@ from collections.abc import Iterable
 import bpy
 
 from ...core.finding import Finding
+from .image_files import first_file, image_subject, images_in, is_outside, missing_image
 from .usage import Use
 
 # A big scene has hundreds.
 _MOST_LISTED = 5
 # Kinds of data-blocks whose content may be a file.
 _WITH_FILES = ("images", "movieclips", "sounds", "fonts", "volumes", "cache_files")
-_FILE_SOURCES = ("FILE", "SEQUENCE", "TILED", "MOVIE")
+_PACK_LIBRARIES = "Take File > External Data > Pack Linked Libraries, or make it all local."
+_PUT_BACK = "Put it back, load this file again, and take External Data > Pack Linked Libraries."
+_BRING_BACK = "Bring that back in the library, or remove what uses it here."
 
 
 def image_findings(uses: Iterable[Use]) -> list[Finding]:
     """Return which images of used materials lie outside the file."""
-    images = {
-        node.image: use.material
-        for use in uses
-        for tree in use.trees
-        for node in tree.nodes
-        if getattr(node, "image", None) is not None
-    }
     found = []
-    for image, material in images.items():
-        remedy = "Pack it: File > External Data."
+    for image, material in images_in(uses).items():
+        missing = missing_image(image, material)
+        if missing is not None:
+            found.append(missing)
+            continue
         if image.is_dirty:
             message = "It has been painted on and not saved."
-        elif not _is_outside(image):
-            continue
-        elif os.path.exists(_first_file(image)):
+        elif is_outside(image):
             message = f"It is the file {image.filepath}, outside this one."
         else:
-            message = f"Its file {image.filepath} is missing."
-            remedy = "Put the file back, and pack it: File > External Data."
-        subject = f"Image '{image.name}' of material '{material.name}'"
-        found.append(Finding("warning", subject, message, remedy))
+            continue
+        remedy = "Pack it: File > External Data."
+        found.append(Finding("warning", image_subject(image, material), message, remedy))
     return found
-
-
-def _first_file(data: bpy.types.ID) -> str:
-    path = bpy.path.abspath(data.filepath, library=data.library)
-    if getattr(data, "source", "") == "TILED":
-        return path.replace("<UDIM>", str(data.tiles[0].number))
-    return path
 
 
 def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
@@ -68,42 +57,42 @@ def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
     return found
 
 
-def library_findings(uses: Iterable[Use]) -> list[Finding]:
-    """Return which libraries used materials need, and what is wrong with these."""
-    needed: dict[bpy.types.Library, list[str]] = {}
-    for use in uses:
-        for data in (use.material, *use.trees[1:], *use.groups, *use.lost):
-            library = data.library
-            # Blender 5 packs libraries another way than by a packed file.
-            if library and not (library.packed_file or getattr(data, "is_linked_packed", False)):
-                needed.setdefault(library, []).append(data.name)
-    found = []
-    for library, names in needed.items():
+def library_findings() -> list[Finding]:
+    """Return which libraries the file needs that are not packed into it, the missing ones first.
+
+    All of them count: nothing tells whether what is linked from a missing one was ours.
+    """
+    errors, warnings = [], []
+    for library in bpy.data.libraries:
+        # What was linked directly, and not by that, is what users know.
+        linked = sorted(library.users_id, key=lambda data: data.is_library_indirect)
+        if not linked:  # it will not be saved
+            continue
+        lost = [data for data in linked if data.is_missing]
+        names = _listed([f"'{data.name}'" for data in lost or linked])
         subject = f"Library '{library.filepath}'"
-        holds = ", ".join(f"'{name}'" for name in dict.fromkeys(names))
-        if not os.path.exists(bpy.path.abspath(library.filepath)):
-            message = f"It is missing, and with it {holds}."
-            found.append(Finding("error", subject, message, "Put the file back and relocate it."))
-        elif library.filepath.startswith("//"):
-            message = f"The farm needs this file too, for {holds}."
-            found.append(Finding("note", subject, message, "Send it along, or make them local."))
-        else:
-            message = f"{holds} are linked by an absolute path, which a farm does not have."
-            remedy = "Take File > External Data > Make Paths Relative, or make them local."
-            found.append(Finding("warning", subject, message, remedy))
-    return found
+        # Blender 5 also packs single data-blocks, into libraries that are archives.
+        packed = library.packed_file or getattr(library, "is_archive", False)
+        if not packed and not os.path.exists(bpy.path.abspath(library.filepath)):
+            message = f"It is missing, and with it {names}."
+            errors.append(Finding("error", subject, message, _PUT_BACK))
+        elif lost:
+            message = f"It holds no {names}, which this file needs."
+            errors.append(Finding("error", subject, message, _BRING_BACK))
+        elif not packed:
+            message = f"A farm needs this file too, for {names}."
+            warnings.append(Finding("warning", subject, message, _PACK_LIBRARIES))
+    return errors + warnings
 
 
 def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
     """Return which files the rest of the scene's data need, those of used materials left out."""
-    told = {
-        getattr(node, "image", None) for use in uses for tree in use.trees for node in tree.nodes
-    }
+    told = images_in(uses)
     paths = {
-        _first_file(data)
+        first_file(data)
         for name in _WITH_FILES
         for data in getattr(bpy.data, name)
-        if data not in told and data.users and not data.library and _is_outside(data)
+        if data not in told and data.users and is_outside(data)
     }
     found = []
     for level, here, what, remedy in (
@@ -112,19 +101,14 @@ def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
     ):
         listed = sorted(path for path in paths if os.path.exists(path) == here)
         if listed:
-            rest = len(listed) - _MOST_LISTED
-            names = ", ".join(listed[:_MOST_LISTED]) + (f" and {rest} more" if rest > 0 else "")
-            message = f"Beside these materials, the file needs {what}: {names}."
+            message = f"Beside these materials, the file needs {what}: {_listed(listed)}."
             found.append(Finding(level, "File", message, remedy))
     return found
 
 
-def _is_outside(data: bpy.types.ID) -> bool:
-    if getattr(data, "packed_file", None) or not data.filepath or data.filepath == "<builtin>":
-        return False
-    return getattr(data, "source", "FILE") in _FILE_SOURCES and not getattr(
-        data, "packed_files", None
-    )
+def _listed(names: list[str]) -> str:
+    rest = len(names) - _MOST_LISTED
+    return ", ".join(names[:_MOST_LISTED]) + (f" and {rest} more" if rest > 0 else "")
 
 
 def script_findings(uses: Iterable[Use]) -> list[Finding]:

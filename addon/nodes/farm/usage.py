@@ -12,16 +12,14 @@ from ..group import KIND_KEY
 
 @dataclass(frozen=True)
 class Use:
-    """A material with the node trees that it reaches, its own first, and those that are missing.
+    """A material, the node trees that it reaches, its own first, and those of them that are ours.
 
-    `trees` go into node groups, but not into ours. `lost` are placeholders of groups whose library
-    could not be read: nothing tells whether they were ours.
+    `trees` go into node groups, but not into ours.
     """
 
     material: bpy.types.Material
     trees: tuple[bpy.types.NodeTree, ...]
     groups: tuple[bpy.types.NodeTree, ...]
-    lost: tuple[bpy.types.NodeTree, ...]
 
     @property
     def used(self) -> bool:
@@ -35,18 +33,16 @@ def is_used(data: bpy.types.ID) -> bool:
 
 
 def material_uses() -> Iterator[Use]:
-    """Yield every material of the file that has a group of ours, or may have had one.
-
-    That is where the library of the material, or of a group in it, could not be read.
-    """
+    """Yield every material of the file that has a group of ours."""
     for material in bpy.data.materials:
-        use = _use(material)
-        if use.groups or use.lost or material.is_missing:
+        use = material_use(material)
+        if use.groups:
             yield use
 
 
-def _use(material: bpy.types.Material) -> Use:
-    trees, groups, lost = [], [], []
+def material_use(material: bpy.types.Material) -> Use:
+    """Return the node trees that `material` reaches."""
+    trees, groups = [], []
     tree = surface_tree(material)
     waiting = [] if tree is None else [tree]
     seen = set(waiting)
@@ -60,8 +56,6 @@ def _use(material: bpy.types.Material) -> Use:
             seen.add(group)
             if KIND_KEY in group:
                 groups.append(group)
-            elif group.is_missing:
-                lost.append(group)
             else:
                 waiting.append(group)
-    return Use(material, tuple(trees), tuple(groups), tuple(lost))
+    return Use(material, tuple(trees), tuple(groups))
