@@ -15,6 +15,9 @@ from .errors import converged
 from .machine import Machine
 from .plan import Scene, Variant
 
+# Relative; what pictures in single precision tell. Exact in a white furnace has none at all.
+SMALLEST_ERROR = 1e-5
+
 
 class MissingResultError(RuntimeError):
     """A scene was not measured to its end; the message names it and the remedy."""
@@ -68,15 +71,16 @@ def read_scene(scene: Scene, folder: Path) -> SceneFindings:
 def _curve(
     variant: Variant, runs: list[store.Result], reference: store.Result, floor: float
 ) -> Curve:
-    """The curve of a variant's rounds. An error below the reference's noise counts as that noise:
-    nothing can be told below it."""
+    """The curve of a variant's rounds. An error below the reference's noise counts as that noise,
+    and one below SMALLEST_ERROR as that: nothing can be told below them."""
     longest = max(runs, key=lambda run: run["samples"][-1])["samples"]
     by_level = [
         [float(run["squared_error"][level]) for run in runs if level < len(run["samples"])]
         for level in range(len(longest))
     ]
+    lowest_told = np.fmax(floor, SMALLEST_ERROR**2)
     lowest, squared, highest = (
-        tuple(float(np.fmax(how(found), floor)) for found in by_level)
+        tuple(float(np.maximum(how(found), lowest_told)) for found in by_level)
         for how in (np.min, np.median, np.max)
     )
     return Curve(

@@ -28,7 +28,6 @@ FILE = ROOT / "docs" / "benchmarks" / "gains.md"
 ROUNDS = 5
 SAMPLES = 16
 PERCENTAGE = 50  # of the showcase's width and height
-LEAST_TOLD = 0.02  # of the time; what gains less is told as no difference
 
 
 @dataclass(frozen=True)
@@ -152,7 +151,8 @@ def page(found: dict[Change, SampleTimes], machine: str) -> str:
     for change, times in found.items():
         ratios = times.ratios(change.what, "with")
         middle = statistics.median(ratios)
-        gained = f"{1.0 - 1.0 / middle:.0%}" if middle > 1.0 + LEAST_TOLD else "no difference"
+        told = min(ratios) > 1.0 or max(ratios) < 1.0
+        gained = f"{1.0 - 1.0 / middle:.0%}" if told else "not told apart"
         spread = f"{middle:.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
         rows.append((change.what, change.stage, change.quality, spread, gained))
     header = ("change", "showcase of", "Quality", "time without it over with it", "gain")
@@ -160,8 +160,8 @@ def page(found: dict[Change, SampleTimes], machine: str) -> str:
 
 Measured on {machine} by `make gains`, which times today's shader against
 itself without the change: processor time of a sample, median and range of {ROUNDS} rounds in which
-both take turns. Changes by less than {LEAST_TOLD:.0%} cannot be told from none. What stratified
-walks gain in error is on [the page of errors](README.md): One walk there has none.
+both take turns. A gain is told where all rounds agree that there is one. What stratified walks gain
+in error is on [the page of errors](README.md): One walk there is not stratified.
 
 {table(header, rows)}""")
 

@@ -32,4 +32,4 @@ def test_the_page_tells_a_gain_and_where_there_is_none():
     times = SampleTimes(seconds, {})
     text = gains.page({first: times, second: times}, "Some processor")
     assert f"| {first.what} | metal | Fitted | 1.25 (1.20 to 1.30) | 20% |" in text
-    assert f"| {second.what} | metal | Fitted | 1.00 (1.00 to 1.01) | no difference |" in text
+    assert f"| {second.what} | metal | Fitted | 1.00 (1.00 to 1.01) | not told apart |" in text
