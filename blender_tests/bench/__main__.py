@@ -36,13 +36,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if options.check:
             return _check(folder)
-        found = _measured(name, scenes, folder)
+        found = _measured(name, scenes, folder, check.RECORDED if options.record else 1)
         if options.record:
             _record(found)
         if name == "trial" and not options.only:
             _tell_estimate(found)
         if name == "full" and not options.only:
-            _record(_measured("quick", PLANS["quick"], folder))
+            _record(_measured("quick", PLANS["quick"], folder, check.RECORDED))
     except KeyboardInterrupt:
         print(f"\nInterrupted. What is done is kept in {folder}", file=sys.stderr)
         return 130
