@@ -44,7 +44,8 @@ struct FurtherBounces {
   float cosine;  // part that is a cosine lobe where the surface is not seen
 };
 
-FurtherBounces isotropic_further_bounces(Microsurface surface, Facet facet, vector wi, int max_bounces)
+FurtherBounces isotropic_further_bounces(Microsurface surface, Facet facet, vector wi,
+                                         int max_bounces)
 {
   float energy[1], c[5];
   conductor_energy(surface.beckmann, mean_alpha(surface), wi[2], energy);
