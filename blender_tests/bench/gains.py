@@ -12,8 +12,6 @@ from pathlib import Path
 
 import bpy
 
-from addon.core.kinds import kind_named
-from addon.core.shader_source import inlined_source
 from addon.nodes.group import material_group, new_material, script_node
 from addon.nodes.script import compile_source
 from blender_tests.figures.cache import ROOT, write
@@ -23,6 +21,7 @@ from scenes import variants
 from tools.timing import SampleTimes, time_samples
 
 from .machine import this_machine
+from .shaders import replaced_source
 
 FILE = ROOT / "docs" / "benchmarks" / "gains.md"
 ROUNDS = 5
@@ -78,20 +77,6 @@ CHANGES = (
 )  # fmt: skip
 
 
-def patched(kind: str, change: Change) -> str:
-    """The source without the change. Raises ValueError where today's has not just once what it
-    replaces."""
-    source = inlined_source(kind_named(kind).shader)
-    for ours, other in change.patches:
-        if source.count(ours) != 1:
-            raise ValueError(
-                f"{kind}: the shader has {ours!r} {source.count(ours)} times, not once: bring "
-                "blender_tests/bench/gains.py up to date"
-            )
-        source = source.replace(ours, other)
-    return source
-
-
 def kind_of(stage: str) -> str:
     """The material that a stage is made of."""
     return "CONDUCTOR" if stage == "metal" else "DIELECTRIC"
@@ -120,7 +105,10 @@ def measure(stage: str) -> dict[Change, SampleTimes]:
     changes = [change for change in CHANGES if change.stage == stage]
     materials = opened(stage)
     script = script_node(material_group(kind_of(stage)))
-    bytecodes = {change: compile_source(patched(kind_of(stage), change)) for change in changes}
+    bytecodes = {
+        change: compile_source(replaced_source(kind_of(stage), change.patches))
+        for change in changes
+    }
     today = script.bytecode, script.bytecode_hash
 
     def switch(quality: str, change: Change | None) -> None:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Plain estimators for comparison, made from our shaders by small changes of their source."""
 
+from collections.abc import Iterable
+
 import bpy
 
 from addon.core.kinds import kind_named
@@ -27,20 +29,25 @@ PATCHES = {
 }
 
 
-def patched_source(kind: str, patch: str) -> str:
-    """The source of this kind's shader, changed as PATCHES says.
+def replaced_source(kind: str, patches: Iterable[tuple[str, str]]) -> str:
+    """The source of this kind's shader, the first text of each pair replaced by the second.
 
     Raises ValueError where the shader does not have just once what is to be replaced.
     """
     source = inlined_source(kind_named(kind).shader)
-    for ours, other in PATCHES[patch]:
+    for ours, other in patches:
         if source.count(ours) != 1:
             raise ValueError(
-                f"{kind}: the shader has {ours!r} {source.count(ours)} times, not once: bring "
-                "blender_tests/bench/shaders.py up to date"
+                f"{kind}: the shader has {ours!r} {source.count(ours)} times, not once: bring the "
+                "patches in blender_tests/bench up to date"
             )
         source = source.replace(ours, other)
     return source
+
+
+def patched_source(kind: str, patch: str) -> str:
+    """The source of this kind's shader, changed as PATCHES says; raises as `replaced_source`."""
+    return replaced_source(kind, PATCHES[patch])
 
 
 def patched_group(kind: str, patch: str) -> bpy.types.ShaderNodeTree:

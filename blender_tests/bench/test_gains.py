@@ -1,29 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The changes whose gains are told: each is in today's shaders, and what is told of it."""
 
-from dataclasses import replace
-
 import pytest
 
 from addon.core.kinds import kind_named
 from tools.timing import SampleTimes
 
 from . import gains
+from .shaders import replaced_source
 
 
 @pytest.mark.parametrize("change", gains.CHANGES, ids=lambda one: f"{one.quality}: {one.what}")
 def test_each_change_is_in_todays_shader(change):
     kind = gains.kind_of(change.stage)
-    source = gains.patched(kind, change)
+    source = replaced_source(kind, change.patches)
     assert all(ours not in source for ours, _ in change.patches)
     assert all(name in kind_named(kind).by_identifier for name, _ in change.values)
     assert change.patches or change.values
 
 
 def test_a_change_that_no_longer_is_there_is_told():
-    old = replace(gains.CHANGES[0], patches=(("int no_such_line;", ""),))
     with pytest.raises(ValueError, match="0 times, not once"):
-        gains.patched("CONDUCTOR", old)
+        replaced_source("CONDUCTOR", (("int no_such_line;", ""),))
 
 
 def test_the_page_tells_a_gain_and_where_there_is_none():
