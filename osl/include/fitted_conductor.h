@@ -114,7 +114,7 @@ closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, v
   if (anisotropic > 0)
     lobes = (1 - anisotropic) * lobes
             + anisotropic * anisotropic_further_bounces(frame, surface, facet, wi, bounces);
-  return whole_reflection(frame, surface, facet, 1) + lobes;
+  return lobes + whole_reflection(frame, surface, facet, 1);
 }
 
 #endif
