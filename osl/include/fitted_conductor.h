@@ -114,6 +114,7 @@ closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, v
   if (anisotropic > 0)
     lobes = (1 - anisotropic) * lobes
             + anisotropic * anisotropic_further_bounces(frame, surface, facet, wi, bounces);
+  // In another order Cycles' samples spread less evenly over the closures, and make more noise.
   return lobes + whole_reflection(frame, surface, facet, 1);
 }
 
