@@ -65,9 +65,9 @@ def time_samples(
     samples  -- number of samples that are timed, 1 or more
     rounds   -- how often all variants are timed, one after the other, 1 or more
 
-    In each round a variant is rendered once to warm up (it builds the scene and compiles the
-    shaders), then with 1 sample and with 1 + `samples`: the difference of these two times
-    counts. The scene's samples, seed and persistent data are put back at the end.
+    In each round a variant is rendered with 1 sample and with 1 + `samples`: the difference of
+    these two times counts. Before the first round's, it is rendered once to warm up. The scene's
+    samples, seed and persistent data are put back at the end.
     Raises ValueError for a number below 1 and RuntimeError where a render takes no time at all.
     """
     if samples < 1 or rounds < 1:
@@ -82,7 +82,8 @@ def time_samples(
             scene.cycles.seed = turn
             for name, switch in variants.items():
                 switch()
-                _render(scene, 1)
+                if turn == 0:
+                    _render(scene, 1)
                 starts[name].append(_render(scene, 1))
                 rest = _render(scene, 1 + samples) - starts[name][-1]
                 seconds[name].append(rest / samples)

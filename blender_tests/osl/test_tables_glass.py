@@ -88,7 +88,8 @@ def test_weights_keep_the_energy_between_nodes(distribution: str, inside: bool, 
                 place = np.array([alpha]), np.array([cosine])
                 v = grid.interpolated(middle, *place)[0]
                 wi = dielectric.view(cosine)
-                parts = ((1.0 - v[0] ** 2) * v[1], v[0] ** 2 * v[5])
+                back = 1.0 - v[0] ** 2 if inside else v[0] ** 2
+                parts = ((1.0 - back) * v[1], back * v[5])
                 for lobe, start, part in ((1, 2, parts[0]), (0, 6, parts[1])):
                     shape = dielectric.legal(wi, v[start + 1 : start + 3], lobe)
                     kind = BECKMANN if lobe else distribution

@@ -63,10 +63,14 @@ def independent_pictures(samples: int, count: int) -> np.ndarray:
     shader draws the same numbers (5 to 10 % of the variance was common to both). So the camera is
     moved aside by NUDGE from one to the next, less than a thousandth of a pixel.
     """
-    camera = bpy.context.scene.camera
+    scene = bpy.context.scene
+    camera = scene.camera
     start = camera.location.x
     pictures = []
     for seed in range(count):
+        # Cycles keeps its compiled shaders until the last one; what changes after it would not
+        # reach a scene that was kept.
+        scene.render.use_persistent_data = seed < count - 1
         camera.location.x = start + seed * NUDGE
         pictures.append(picture(samples, seed))
     camera.location.x = start

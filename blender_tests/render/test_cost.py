@@ -16,7 +16,7 @@ from . import pictures
 pytestmark = pytest.mark.timing
 
 ROUNDS = 5
-PERCENTAGE = 50  # of the showcase's width and height
+PERCENTAGE = 35  # of the showcase's width and height
 CYCLES = "Cycles Multiscatter GGX"
 # Fitted is to cost 1.1 times Cycles' closure at most. Measured on Blender 5.2 and 4.5: 1.13 and
 # 1.16 on metal, 1.07 and 1.08 on glass of roughness 0.5, and 1.39 and 1.42 on rougher glass, which

@@ -71,7 +71,8 @@ closure color fitted_dielectric(Frame frame, Microsurface surface, Facet facet, 
     color further = missing[1] * facet.tint * facet.tint
                     * successive_bounces(facet.tint, v[9], accuracy.max_bounces - 1);
     // What Cycles' closure has too much of the first bounce is taken from what goes through.
-    color back = v[0] * v[0] * further;
+    color thinner = v[0] * v[0] * further;
+    color back = inside ? further - thinner : thinner;
     color through = further - back - (1 - single) * (missing[1] - missing[0]) * facet.tint;
     back = max(back + min(through, color(0)), color(0));
     through = max(through, color(0));

@@ -50,7 +50,7 @@ STEEP_START = 0.25  # width over alpha
 INERTIA = 2e-3
 
 LAYOUT = (
-    ("root of the part of the further bounces that comes back", 1),
+    ("root of the part of the further bounces that leaves into the lower index", 1),
     ("part of that in the steep lobe", 1),
     ("root of that lobe's weight for an energy of 1", 1),
     ("its axis' angle from the normal, its half-width", 2),
@@ -242,7 +242,8 @@ def node(surface: Surface, cosine: float) -> tuple[np.ndarray, float]:
     energy = density[1].sum(axis=1)
     back, back_error = part(surface, wi, density[1, 0], 0)
     through, through_error = part(surface, wi, density[1, 1], 1)
-    share = np.sqrt(energy[0] / energy.sum()) if energy.sum() > 0.0 else 0.0
+    thinner = energy[0] if surface.material.ior > 1.0 else energy[1]
+    share = np.sqrt(thinner / energy.sum()) if energy.sum() > 0.0 else 0.0
     scale = float((density.sum(axis=0) ** 2).sum() * BINS.area)
     kept = (order - 2.0) / (order - 1.0)
     values = np.array([share, *through, *back, kept])
