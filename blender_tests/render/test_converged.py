@@ -8,6 +8,7 @@ surface refracts. Reflection is measured where the sun shines on the side that i
 under a sun from behind and through a slab.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +23,8 @@ SAMPLES = {"sun": 64, "back": 192, "inside": 128, "slab": 64}
 SAMPLES_OF_DIM_REFLECTIONS = 256
 SAMPLES_OF_WIDE_REFRACTIONS = 768
 SAMPLES_OF_FIRST_BOUNCES = 48
+# From so many on a test is `long`.
+LONG = 256
 LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
 # Of refraction by a surface whose narrower alpha is below 0.3: Cycles' refraction is isotropic, so
 # that its lobes are as wide one way as the other.
@@ -103,7 +106,22 @@ FIRST_BOUNCES = [
 ]
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.reference)
+def by_case(cases: list[Case], samples: Mapping[str, int] = {}) -> pytest.MarkDecorator:
+    """Parametrizes a test by ``cases``; ``samples``: those of cases that take other numbers."""
+    return pytest.mark.parametrize(
+        "case",
+        [
+            pytest.param(
+                case,
+                id=case.reference,
+                marks=[pytest.mark.long] * (samples.get(case.reference, case.samples) >= LONG),
+            )
+            for case in cases
+        ],
+    )
+
+
+@by_case(CASES)
 def test_walk(case: Case, report) -> None:
     """All bounces."""
     _hold("Walk", case, "mean", case.samples, case.limit, report)

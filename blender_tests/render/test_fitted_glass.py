@@ -24,8 +24,11 @@ from .test_fitted import LARGEST_NOISE_RATIO, hold_noise
 
 LIMIT = 0.04
 # Where that is not reached: no few closures have the shape of what GGX of alpha 1 sends through
-# after several bounces, and from inside even a mean of many renders has 2 % of noise.
-OTHER_LIMITS = {"back_glass_ggx_1": 0.09, "inside_glass_ggx_0.5": 0.06}
+# after several bounces, or of what rough glass sends out, which avoids the normal.
+OTHER_LIMITS = {"back_glass_ggx_1": 0.09, "inside_glass_ggx_0.5": 0.08}
+
+# Of each of a case's two renders, where those of Walk have too much noise to tell.
+SAMPLES = {"back_glass_ggx_1": 1536, "inside_glass_ggx_0.5": 2048}
 
 # Furnaces: samples, and the limit.
 SAMPLES_OF_FURNACES = 256
@@ -50,7 +53,7 @@ CASES = [
 DISTRIBUTIONS = ("GGX", "Beckmann")
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.reference)
+@test_converged.by_case(CASES, SAMPLES)
 def test_light(case: test_converged.Case, report) -> None:
     """White glass under every light that has a reference."""
     wanted = pictures.reference(case.reference)
@@ -66,10 +69,6 @@ def test_light(case: test_converged.Case, report) -> None:
     limit = OTHER_LIMITS.get(case.reference, LIMIT)
     report(f"Fitted, {case.reference}", value, f"{limit:.0%}")
     assert error < limit
-
-
-# Of each of a case's two renders, where those of Walk have too much noise to tell.
-SAMPLES = {"back_glass_ggx_1": 1536, "inside_glass_ggx_0.5": 512}
 
 
 @pytest.mark.parametrize("light", ["back", "inside"])
@@ -136,6 +135,7 @@ def test_solid_sphere(distribution: str, alpha: float, report) -> None:
     assert abs(means["Fitted"] - 1.0) < 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sun", [fixtures.FRONT_SUN, fixtures.BACK_SUN], ids=["front", "back"])
 @pytest.mark.parametrize("alpha", [0.25, 1.0])
 def test_solid_sphere_under_a_wide_sun(alpha: float, sun: tuple, report) -> None:
