@@ -1,22 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks tests by their folders; collects what tests measure and prints it as a table."""
+"""Collects what the picture tests measure and prints it as a table when all have run."""
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).parent
-WITHOUT_BLENDER = ("figures", "oracle")
-
 _ROWS: list[tuple[str, str, str]] = []
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what uses no Blender."""
-    for item in items:
-        if item.path.relative_to(HERE).parts[0] in WITHOUT_BLENDER:
-            item.add_marker("plain")
 
 
 @pytest.fixture

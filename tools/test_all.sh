@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Runs every test on Blender 5.2 and 4.5: on both at once, since most tests keep one core busy, and
-# then those that take times, one version after the other. What uses no Blender runs beside 4.5
-# alone, and what averages noise away for long on 5.2 alone, so that both take equally long.
+# then those that take times, one version after the other. Tests for which one version is enough
+# (marked `once`) are shared among both.
 #
 #   tools/test_all.sh [FILE OR FOLDER] [PYTEST'S OPTIONS]
 #
@@ -19,10 +19,10 @@ status=0
 note() { [ "$1" -eq 0 ] || [ "$1" -eq 5 ] || status=1; }
 
 echo "== Tests on Blender 5.2 (those on 4.5 run beside them, into $log)"
-"$older" -m pytest "$@" -m "not timing and not long" >"$log" 2>&1 &
+"$older" -m pytest "$@" -m "not timing" --half 1 >"$log" 2>&1 &
 other=$!
 trap 'kill "$other" 2>/dev/null; exit 130' INT TERM
-"$newer" -m pytest "$@" -m "not timing and not plain"
+"$newer" -m pytest "$@" -m "not timing" --half 2
 note $?
 wait "$other"
 note $?

@@ -23,7 +23,7 @@ SAMPLES = {"sun": 64, "back": 192, "inside": 128, "slab": 64}
 SAMPLES_OF_DIM_REFLECTIONS = 256
 SAMPLES_OF_WIDE_REFRACTIONS = 768
 SAMPLES_OF_FIRST_BOUNCES = 48
-# From so many on a test is `long`.
+# From so many on one Blender version is enough.
 LONG = 256
 LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
 # Of refraction by a surface whose narrower alpha is below 0.3: Cycles' refraction is isotropic, so
@@ -114,7 +114,7 @@ def by_case(cases: list[Case], samples: Mapping[str, int] = {}) -> pytest.MarkDe
             pytest.param(
                 case,
                 id=case.reference,
-                marks=[pytest.mark.long] * (samples.get(case.reference, case.samples) >= LONG),
+                marks=[pytest.mark.once] * (samples.get(case.reference, case.samples) >= LONG),
             )
             for case in cases
         ],
@@ -127,6 +127,7 @@ def test_walk(case: Case, report) -> None:
     _hold("Walk", case, "mean", case.samples, case.limit, report)
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("case", FIRST_BOUNCES, ids=lambda case: case.reference)
 def test_first_bounce(case: Case, report) -> None:
     """Bounce 1 alone against the oracle's own, which is no promise: 5 % for all materials."""

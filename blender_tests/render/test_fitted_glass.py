@@ -135,7 +135,7 @@ def test_solid_sphere(distribution: str, alpha: float, report) -> None:
     assert abs(means["Fitted"] - 1.0) < 0.01
 
 
-@pytest.mark.long
+@pytest.mark.once
 @pytest.mark.parametrize("sun", [fixtures.FRONT_SUN, fixtures.BACK_SUN], ids=["front", "back"])
 @pytest.mark.parametrize("alpha", [0.25, 1.0])
 def test_solid_sphere_under_a_wide_sun(alpha: float, sun: tuple, report) -> None:

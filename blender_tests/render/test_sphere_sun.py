@@ -68,6 +68,7 @@ def test_single_ggx_is_unbiased(report) -> None:
     assert np.abs(z).max() < 4.5
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 @pytest.mark.parametrize("widths", LIMITS, ids=IDS)
 def test_walk(distribution: str, widths: Widths, report) -> None:
@@ -79,6 +80,7 @@ def test_walk(distribution: str, widths: Widths, report) -> None:
     _hold(f"sun, Walk, {distribution} {widths.name}", found, wanted, LIMITS[widths], report)
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("name", COLOURED)
 def test_walk_of_coloured_metals(name: str, report) -> None:
     """Each bounce takes its own Fresnel factor: hue and saturation are the oracle's."""
