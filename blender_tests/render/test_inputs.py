@@ -15,6 +15,8 @@ from scenes import common
 
 from . import pictures
 
+pytestmark = pytest.mark.once
+
 NUMBERS = [float("nan"), float("inf"), float("-inf"), -1.0, 2.0, 1e30, -1e30, 0.0]
 VECTORS = [
     (0.0, 0.0, 0.0),
@@ -24,7 +26,7 @@ VECTORS = [
     (1e-30, 0.0, 0.0),
     (-2.0, 3.0, -4.0),
 ]
-QUALITIES = ("Single", "Walk", "Exact")
+QUALITIES = ("Single", "Fitted", "Walk", "Exact")
 SIZE = 24
 # In a uniform world of radiance 1 nothing that conserves energy is brighter; noise of a few samples
 # and the compensation of the kernels' horizon add to that.
