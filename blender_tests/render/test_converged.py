@@ -8,7 +8,6 @@ surface refracts. Reflection is measured where the sun shines on the side that i
 under a sun from behind and through a slab.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,22 +105,17 @@ FIRST_BOUNCES = [
 ]
 
 
-def by_case(cases: list[Case], samples: Mapping[str, int] = {}) -> pytest.MarkDecorator:
-    """Parametrizes a test by ``cases``; ``samples``: those of cases that take other numbers."""
-    return pytest.mark.parametrize(
-        "case",
-        [
-            pytest.param(
-                case,
-                id=case.reference,
-                marks=[pytest.mark.once] * (samples.get(case.reference, case.samples) >= LONG),
-            )
-            for case in cases
-        ],
-    )
-
-
-@by_case(CASES)
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(
+            case,
+            id=case.reference,
+            marks=[pytest.mark.once] if case.samples >= LONG else [],
+        )
+        for case in CASES
+    ],
+)
 def test_walk(case: Case, report) -> None:
     """All bounces."""
     _hold("Walk", case, "mean", case.samples, case.limit, report)

@@ -20,7 +20,7 @@ PERCENTAGE = 35  # of the showcase's width and height
 CYCLES = "Cycles Multiscatter GGX"
 # Fitted is to cost 1.1 times Cycles' closure at most. Measured on Blender 5.2 and 4.5: 1.10 and
 # 1.15 on metal, 1.18 and 1.14 on glass of roughness 0.5, 1.30 and 1.16 on rougher glass, which
-# keeps random facets of Single's; in quieter runs up to 1.42. The limits guard what is reached.
+# keeps random facets of Single's; 1.42 in earlier runs. The limits guard what is reached.
 MOST = {
     ("Fitted", CYCLES): 1.2,
     ("Walk", "Single"): 2.0,
