@@ -108,7 +108,7 @@ def test_findings_end_with_the_registration(osl_scene):
 
 @pytest.mark.timing
 def test_it_is_quick(osl_scene, report):
-    """A tenth of what even an empty render takes to start, so that nobody notices it."""
+    """A third of it is reading the bytecode of three kinds, 3 MB, to see that it is there."""
     import bpy
 
     from addon.nodes.before_render import check_scene
@@ -124,5 +124,5 @@ def test_it_is_quick(osl_scene, report):
         start = time.process_time()
         assert check_scene(osl_scene, bpy.context.preferences) == ()
         times.append(1e3 * (time.process_time() - start))
-    report("check before rendering, 100 materials", f"{min(times):.1f} ms", "20 ms")
-    assert min(times) < 20.0
+    report("check before rendering, 100 materials", f"{min(times):.1f} ms", "10 ms")
+    assert min(times) < 10.0
