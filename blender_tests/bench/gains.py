@@ -47,7 +47,7 @@ class Change:
     values: tuple[tuple[str, float], ...] = ()
 
 
-_ANY_FRAME = "  if (surface.alpha_x == surface.alpha_y)\n    return any_frame(z);\n"
+_ANY_FRAME = "  if (surface.isotropic)\n    return any_frame(z);\n"
 _ASKED = "  if (!is_left_alone(z, view, Ng))\n    z = corrected"
 _UNSEEN = "    if (!is_seen())\n      return unseen_conductor(frame, surface, facet, further);\n"
 _STRETCHED = "vector w = arrival.stretched;"

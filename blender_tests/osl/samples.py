@@ -15,6 +15,7 @@ ANISOTROPIES = (0.0, 0.5, 0.95)
 # Makes `surface` of the OSL arguments below.
 SURFACE = (
     "Microsurface surface; surface.alpha_x = alpha[0]; surface.alpha_y = alpha[1]; "
+    "surface.isotropic = alpha[0] == alpha[1]; "
     "surface.beckmann = int(alpha[2]) % 2; surface.model = int(alpha[2]) / 2;"
 )
 

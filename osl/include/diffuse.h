@@ -38,6 +38,7 @@ Carrier diffuse_carrier(Microsurface surface, Incidence arrival, vector mean_fac
   float part = min(NAYAR_PER_SLANT * hypot(mean_facet[0], mean_facet[1]), 1);
   Microsurface rougher = surface;
   rougher.alpha_x = rougher.alpha_y = max(surface.alpha_x, surface.alpha_y);
+  rougher.isotropic = 1;
   for (int k = 0; k < KNOTS; ++k) {
     float z = k / (KNOTS - 1.0);
     vector o = vector(sqrt(1 - z * z), 0, z);

@@ -88,6 +88,7 @@ Microsurface refraction_carrier(Microsurface surface)
   Microsurface carrier = surface;
   carrier.alpha_x = min(min(surface.alpha_x, surface.alpha_y), WIDEST_CARRIER);
   carrier.alpha_y = carrier.alpha_x;
+  carrier.isotropic = 1;
   carrier.beckmann = 1;
   carrier.model = CORRELATED;
   return carrier;

@@ -11,7 +11,7 @@
 int is_fitted(Microsurface surface, Facet facet, Accuracy accuracy)
 {
   return accuracy.quality == 1 && accuracy.only == 0 && surface.model == CORRELATED
-         && (facet.kind == CONDUCTOR || surface.alpha_x == surface.alpha_y);
+         && (facet.kind == CONDUCTOR || surface.isotropic);
 }
 
 // A cosine well below those of most facets that a bounce meets.

@@ -111,7 +111,7 @@ closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, v
       return unseen_conductor(frame, surface, facet, further);
     lobes = seen_further_bounces(frame, surface, wi, further);
   }
-  if (anisotropic > 0)
+  if (!surface.isotropic)
     lobes = (1 - anisotropic) * lobes
             + anisotropic * anisotropic_further_bounces(frame, surface, facet, wi, bounces);
   // In another order Cycles' samples spread less evenly over the closures, and make more noise.

@@ -36,6 +36,7 @@ Microsurface microsurface(float roughness, float anisotropy, int distribution, i
   Microsurface surface;
   surface.alpha_x = min(alpha / aspect, 1);
   surface.alpha_y = alpha * aspect;
+  surface.isotropic = anisotropy <= 0;  // as a render starts isfinite() is not worked out
   surface.beckmann = distribution == 1;
   surface.model = clamp(model, 0, 2);
   return surface;
@@ -48,7 +49,7 @@ Frame oriented_frame(Microsurface surface, vector n, vector fallback, vector giv
   vector z = visible_normal(direction(n, fallback), view);
   if (!is_left_alone(z, view, Ng))
     z = corrected_normal(z, view, bending_ground());
-  if (surface.alpha_x == surface.alpha_y)
+  if (surface.isotropic)
     return any_frame(z);
   vector tangent = direction(given, direction(dPdu, any_tangent(z)));
   float turns = legal(rotation, -1e3, 1e3, 0);

@@ -11,6 +11,7 @@
 struct Microsurface {
   float alpha_x;
   float alpha_y;
+  int isotropic;  // known as a render starts, whatever texture the roughness has
   int beckmann;  // 0 GGX, 1 Beckmann
   int model;
 };
