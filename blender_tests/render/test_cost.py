@@ -28,7 +28,7 @@ MOST = {
 MOST_OF_FITTED_GLASS = {0.5: 1.2, 0.7: 1.55}  # by roughness
 MOST_OF_GLASS = 2.5
 # What the tables of Fitted may make of the start of a render of the showcase and its first sample,
-# over Single's. Measured: 1.6 to 1.8. Seconds would only tell how fast the machine is.
+# over Single's. Measured: 1.4 to 1.7. Seconds would only tell how fast the machine is.
 MOST_OF_START = 2.1
 
 

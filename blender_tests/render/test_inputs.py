@@ -33,12 +33,12 @@ SIZE = 24
 BRIGHTEST = 2.0
 
 
-def scene_with(linked: dict[str, object], **values: object) -> None:
+def scene_with(linked: dict[str, object], kind: str = "CONDUCTOR", **values: object) -> None:
     """A tilted plane in a white world, with constant attributes linked by the socket's name."""
     scene = common.start_scene((SIZE, SIZE), samples=8)
     common.set_world(scene, (1.0, 1.0, 1.0))
     common.add_front_camera(scene)
-    material = new_material("CONDUCTOR", "Metal", **values)
+    material = new_material(kind, "Bad inputs", **values)
     mesh = bpy.data.meshes.new("Disc")
     mesh.from_pydata([(-2, -1, -2), (2, -1, -2), (2, 1, 2), (-2, 1, 2)], [], [(0, 1, 2, 3)])
     mesh.materials.append(material)
@@ -47,8 +47,8 @@ def scene_with(linked: dict[str, object], **values: object) -> None:
     node = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeGroup")
     for index, (label, value) in enumerate(linked.items()):
         vector = isinstance(value, tuple)
-        kind = "FLOAT_VECTOR" if vector else "FLOAT"
-        attribute = mesh.attributes.new(f"value {index}", kind, "FACE")
+        data_type = "FLOAT_VECTOR" if vector else "FLOAT"
+        attribute = mesh.attributes.new(f"value {index}", data_type, "FACE")
         attribute.data.foreach_set("vector" if vector else "value", np.float32([value]).ravel())
         source = tree.nodes.new("ShaderNodeAttribute")
         source.attribute_name = f"value {index}"
@@ -110,3 +110,14 @@ def test_normals_beyond_the_horizon(quality: str) -> None:
     for normal in ((0.0, 1.0, 0.0), (0.99, 0.1, 0.0), (0.0, 1.0, -1.0)):
         scene_with({"Normal": normal}, Roughness=0.8, Quality=quality)
         assert_sound(pictures.picture(16))
+
+
+@pytest.mark.parametrize("kind", ["CONDUCTOR", "DIELECTRIC", "DIFFUSE"])
+def test_an_anisotropy_that_is_none_leaves_fitted_as_it_is(kind: str) -> None:
+    def with_anisotropy(value: float) -> np.ndarray:
+        scene_with({"Anisotropy": value}, kind, Roughness=0.7, Quality="Fitted")
+        return pictures.picture(8)
+
+    isotropic = with_anisotropy(0.0)
+    for value in (float("nan"), float("inf"), float("-inf"), -1.0):
+        assert np.array_equal(with_anisotropy(value), isotropic), value

@@ -7,7 +7,8 @@
 #include "ramp.h"
 
 // Tables are of height-correlated surfaces, for all bounces together, and of metal alone where the
-// surface is anisotropic.
+// surface is anisotropic. Shaders go on in an else: as a render starts OSL drops the branch that is
+// not taken, but nothing that follows an early return.
 int is_fitted(Microsurface surface, Facet facet, Accuracy accuracy)
 {
   return accuracy.quality == 1 && accuracy.only == 0 && surface.model == CORRELATED

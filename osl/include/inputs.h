@@ -36,7 +36,8 @@ Microsurface microsurface(float roughness, float anisotropy, int distribution, i
   Microsurface surface;
   surface.alpha_x = min(alpha / aspect, 1);
   surface.alpha_y = alpha * aspect;
-  surface.isotropic = anisotropy <= 0;  // as a render starts isfinite() is not worked out
+  // As a render starts the first is worked out, whatever the roughness, but not isfinite().
+  surface.isotropic = anisotropy <= 0 || surface.alpha_x == surface.alpha_y;
   surface.beckmann = distribution == 1;
   surface.model = clamp(model, 0, 2);
   return surface;

@@ -11,7 +11,7 @@
 struct Microsurface {
   float alpha_x;
   float alpha_y;
-  int isotropic;  // known as a render starts, whatever texture the roughness has
+  int isotropic;  // alpha_x == alpha_y
   int beckmann;  // 0 GGX, 1 Beckmann
   int model;
 };
