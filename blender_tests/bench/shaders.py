@@ -18,11 +18,11 @@ PATCHES = {
     # Every bounce of one walk, as where the camera does not look, but with the kernel of Walk.
     "whole walk": (
         (
-            'int one = facet.kind == DIELECTRIC && accuracy.quality > 0 && !raytype("camera");',
-            "int one = accuracy.quality > 0;",
+            "int whole = accuracy.quality == 3 || (accuracy.quality > 0 && unseen);",
+            "int whole = accuracy.quality > 0;",
         ),
         (
-            "smooth_exit(frame, surface, facet, NARROW_KERNEL * accuracy.kernel, NARROW_KERNEL,",
+            "smooth_exit(frame, surface, facet, kernel, relative,",
             "smooth_exit(frame, surface, facet, accuracy.kernel, KERNEL_PER_ALPHA,",
         ),
     ),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The bound that decides whether further bounces are worth a walk (closures.h)."""
+"""The bound that decides whether further bounces are worth a walk (accuracy.h)."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ def test_no_walk_is_left_out_that_the_tolerance_asks_for(name: str, distribution
     matte = isinstance(material, Diffuse)
     ior = 1.0 if matte else material.ior
     bound = evaluate(
-        "closures.h",
+        "accuracy.h",
         f"{SURFACE} Facet facet; facet.kind = {'DIFFUSE' if matte else 'DIELECTRIC'}; "
         f"facet.ior = {ior}; result = further_energy_bound(surface, facet, wi);",
         alpha=rows.alpha,

@@ -72,8 +72,9 @@ def test_chosen_vertices_carry_the_kept_energy(theta: float) -> None:
     of all vertices weighted by the energy that stays: where the weight goes and how it spreads."""
     surfaces = [Surface(*alpha, kind, GOLD) for alpha, kind in product(ROUGH, DISTRIBUTIONS)]
     kept = (
-        "float kept; Vertex chosen = sample_kept_vertex(surface, facet, incidence(surface, wi),"
-        "walker_from(surface, wi, stream), next_numbers(stream), 8, 4, stream, kept);"
+        "Incidence arrival = incidence(surface, wi); float kept;"
+        "Vertex chosen = sample_kept_vertex(surface, facet, arrival,"
+        "walker_from(surface, arrival, stream), next_numbers(stream), 8, 4, stream, kept);"
     )
     first = shade_all(surfaces, theta, kept + "result = kept * chosen.o;", count=2 * COUNT)
     squared = kept + "result = kept * chosen.o * chosen.o;"
@@ -98,7 +99,7 @@ def test_energy_of_walks(material: Material, most: int) -> None:
     walked = shade_all(
         surfaces,
         theta,
-        "Walker walker = walker_from(surface, wi, stream);"
+        "Walker walker = walker_from(surface, incidence(surface, wi), stream);"
         f"vector o = walk_to_exit(surface, facet, 0, {most}, 0, 0, stream, walker);"
         "result = (walker.below ? -1 : 1) * vector(walker.throughput);",
     )
@@ -121,7 +122,7 @@ def test_one_bounce_alone(material: Material) -> None:
         walked = shade(
             surface,
             0.9,
-            "Walker walker = walker_from(surface, wi, stream);"
+            "Walker walker = walker_from(surface, incidence(surface, wi), stream);"
             f"vector o = walk_to_exit(surface, facet, 0, 16, {only}, 0, stream, walker);"
             "result = vector(walker.throughput);",
         )
@@ -133,7 +134,7 @@ def test_tolerance_bounds_what_is_lost() -> None:
     """A path is dropped only when its throughput is below the tolerance."""
     surface = Surface(1.0, 1.0)
     walk = (
-        "Walker walker = walker_from(surface, wi, stream);"
+        "Walker walker = walker_from(surface, incidence(surface, wi), stream);"
         "vector o = walk_to_exit(surface, facet, 0, 32, 0, {}, stream, walker);"
         "result = vector(walker.throughput);"
     )

@@ -3,7 +3,8 @@
 #ifndef MICROBOUNCE_FITTED_H
 #define MICROBOUNCE_FITTED_H
 
-#include "closures.h"
+#include "accuracy.h"
+#include "frame.h"
 #include "ramp.h"
 
 // Tables are of height-correlated surfaces, for all bounces together, and of metal alone where the
@@ -18,14 +19,27 @@ int is_fitted(Microsurface surface, Facet facet, Accuracy accuracy)
 // A cosine well below those of most facets that a bounce meets.
 #define LOW_COSINE 0.2
 
+// A metal's Fresnel factors for facets seen straight and at a low cosine.
+struct FresnelRange {
+  color straight;
+  color low;
+};
+
+FresnelRange fresnel_range(Conductor metal)
+{
+  FresnelRange range;
+  range.straight = conductor_fresnel(metal, 1);
+  range.low = conductor_fresnel(metal, LOW_COSINE);
+  return range;
+}
+
 // The mean of a metal's Fresnel factor over facets of many cosines, where Schlick's is that at
-// `cosine`: mixed from facets seen straight and at a low cosine. The factor at `cosine` itself
-// would be up to 0.01 too dark for metals that reflect less before they reflect all.
-color mean_facet_weight(Facet facet, float cosine)
+// `cosine`. The factor at `cosine` itself would be up to 0.01 too dark for metals that reflect less
+// before they reflect all.
+color mean_fresnel(FresnelRange range, float cosine)
 {
   float s = (1 - cosine) / (1 - LOW_COSINE), s2 = s * s;
-  float low = min(s2 * s2 * s, 1);
-  return mix(facet_weight(facet, 1), facet_weight(facet, LOW_COSINE), low);
+  return mix(range.straight, range.low, min(s2 * s2 * s, 1));
 }
 
 // The light of `count` bounces of which each has the factor `each` and leaves the part `rest` for

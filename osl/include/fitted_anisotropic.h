@@ -36,15 +36,15 @@ void anisotropic_shape(Microsurface surface, vector wi, output float v[ANISOTROP
   v[0] = min(v[0] * (surface.beckmann ? c : sqrt(c)), missing_energy_bound(surface, wi));
 }
 
-closure color anisotropic_further_bounces(Frame frame, Microsurface surface, Facet facet,
+closure color anisotropic_further_bounces(Frame frame, Microsurface surface, FresnelRange fresnel,
                                           vector wi, int max_bounces)
 {
   float v[ANISOTROPIC_VALUES];
   anisotropic_shape(surface, wi, v);
 
   // One Fresnel factor for both facets of bounce 2, one for those of all others.
-  color second = mean_facet_weight(facet, v[12]);
-  color later = later_bounces(mean_facet_weight(facet, v[13]), v[14], max_bounces);
+  color second = mean_fresnel(fresnel, v[12]);
+  color later = later_bounces(mean_fresnel(fresnel, v[13]), v[14], max_bounces);
   color kept = v[0] * (v[11] * second * second + (1 - v[11]) * later);
 
   color ramp[KNOTS];

@@ -7,6 +7,7 @@
 #include "../tables/conductor_lobes.h"
 #include "fitted.h"
 #include "fitted_anisotropic.h"
+#include "reflection.h"
 
 // Aspects (1 - alpha_y / alpha_x) up to this pass from isotropic closures to anisotropic ones.
 #define LARGEST_BLENDED_ASPECT 0.1
@@ -44,7 +45,7 @@ struct FurtherBounces {
   float cosine;  // part that is a cosine lobe where the surface is not seen
 };
 
-FurtherBounces isotropic_further_bounces(Microsurface surface, Facet facet, vector wi,
+FurtherBounces isotropic_further_bounces(Microsurface surface, FresnelRange fresnel, vector wi,
                                          int max_bounces)
 {
   float energy[1], c[5];
@@ -53,8 +54,8 @@ FurtherBounces isotropic_further_bounces(Microsurface surface, Facet facet, vect
   FurtherBounces further;
   further.energy = energy[0];
   further.share = c[0];
-  further.second = mean_facet_weight(facet, c[1]);
-  further.later = mean_facet_weight(facet, c[2]);
+  further.second = mean_fresnel(fresnel, c[1]);
+  further.later = mean_fresnel(fresnel, c[2]);
   further.series = successive_bounces(further.later, c[3], max_bounces - 2);
   further.cosine = c[4];
   return further;
@@ -101,19 +102,20 @@ closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, v
                                Accuracy accuracy)
 {
   int bounces = accuracy.max_bounces;
-  if (bounces == 1 || further_energy_bound(surface, facet, wi) <= accuracy.tolerance)
+  if (!has_further_bounces(surface, facet, wi, accuracy))
     return whole_reflection(frame, surface, facet, 1);
   float anisotropic = min((1 - surface.alpha_y / surface.alpha_x) / LARGEST_BLENDED_ASPECT, 1);
+  FresnelRange fresnel = fresnel_range(facet.metal);
   closure color lobes = 0;
   if (anisotropic < 1) {
-    FurtherBounces further = isotropic_further_bounces(surface, facet, wi, bounces);
+    FurtherBounces further = isotropic_further_bounces(surface, fresnel, wi, bounces);
     if (!is_seen())
       return unseen_conductor(frame, surface, facet, further);
     lobes = seen_further_bounces(frame, surface, wi, further);
   }
   if (!surface.isotropic)
     lobes = (1 - anisotropic) * lobes
-            + anisotropic * anisotropic_further_bounces(frame, surface, facet, wi, bounces);
+            + anisotropic * anisotropic_further_bounces(frame, surface, fresnel, wi, bounces);
   // In another order Cycles' samples spread less evenly over the closures, and make more noise.
   return lobes + whole_reflection(frame, surface, facet, 1);
 }

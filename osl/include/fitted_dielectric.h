@@ -7,6 +7,7 @@
 
 #include "../tables/dielectric_lobes.h"
 #include "fitted.h"
+#include "refraction.h"
 
 // Alphas from which on Cycles' refraction is left for Single's, within a CROSSFADE: evaluated where
 // no facet refracts to, it takes the density of facets that lean over, of which GGX has more.
@@ -56,7 +57,7 @@ closure color fitted_dielectric(Frame frame, Microsurface surface, Facet facet, 
   float single = share_of_single(surface, accuracy.max_bounces);
   closure color lobes = 0;
   color first = facet.tint;
-  if (accuracy.max_bounces > 1 && further_energy_bound(surface, facet, wi) > accuracy.tolerance) {
+  if (has_further_bounces(surface, facet, wi, accuracy)) {
     int inside = facet.ior < 1;
     float v[10], missing[2];
     dielectric_shape(surface.beckmann, inside, surface.alpha_x, wi[2], facet.ior, v);

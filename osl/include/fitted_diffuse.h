@@ -17,10 +17,8 @@ closure color fitted_diffuse(Frame frame, Microsurface surface, Facet facet, vec
 {
   float v[44];
   diffuse_shape(surface.beckmann, surface.alpha_x, wi[2], v);
-  int many = accuracy.max_bounces > 1
-             && further_energy_bound(surface, facet, wi) > accuracy.tolerance;
   color first = facet.tint, second = color(0), later = color(0);
-  if (many) {
+  if (has_further_bounces(surface, facet, wi, accuracy)) {
     second = facet.tint * facet.tint;
     later = later_bounces(facet.tint, v[43], accuracy.max_bounces);
   }

@@ -3,7 +3,7 @@
 #ifndef MICROBOUNCE_INPUTS_H
 #define MICROBOUNCE_INPUTS_H
 
-#include "closures.h"
+#include "accuracy.h"
 #include "frame.h"
 #include "ndf.h"
 

@@ -31,14 +31,14 @@ struct Vertex {
   float log_u;   // height on the side after; of the height-tracked model alone
 };
 
-Walker walker_from(Microsurface surface, vector wi, output RandomStream stream)
+Walker walker_from(Microsurface surface, Incidence arrival, output RandomStream stream)
 {
   Walker walker;
-  walker.v = wi;
+  walker.v = arrival.v;
   walker.below = 0;
   walker.log_u = 0;
   if (surface.model == HEIGHT_TRACKED)
-    walker.log_u = height_met(incidence(surface, wi), next_number(stream));
+    walker.log_u = height_met(arrival, next_number(stream));
   walker.throughput = color(1);
   return walker;
 }

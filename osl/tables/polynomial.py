@@ -43,17 +43,13 @@ class Polynomial:
 
     def text(self, coefficients: np.ndarray) -> str:
         """Its value in OSL, of the products that `function` names."""
-        inner: dict[tuple[int, ...], list[str]] = {}
-        for e, c in zip(self.exponents, coefficients, strict=True):
-            number = re.sub(r"(?<!\d)0\.", ".", f"{c:.{DIGITS}g}".replace("e-0", "e-"))
-            factor = f" * a{e[0]}{e[1]}" if any(e[:2]) else ""
-            inner.setdefault(e[2:], []).append(number + factor)
+        numbers = dict(zip(self.exponents, (_number(c) for c in coefficients), strict=True))
         parts = []
-        for e, terms in inner.items():
-            factor = f" * b{e[0]}{e[1]}" if any(e) else ""
-            parts.append(f"({' + '.join(terms)}){factor}")
-        low, high = f"{self.low:g}", f"{self.high:g}"
-        return f"clamp({' + '.join(parts)}, {low}, {high})".replace("+ -", "- ")
+        for e in dict.fromkeys(e[2:] for e in self.exponents):
+            row = [numbers[pair + e] for pair in _pairs(self.degree - sum(e))]
+            dots = [f"dot(vector({', '.join(one)}), a{i})" for i, one in enumerate(_triples(row))]
+            parts.append(f"b{e[0]}{e[1]} * ({' + '.join(dots)})" if any(e) else " + ".join(dots))
+        return f"clamp({' + '.join(parts)}, {self.low:g}, {self.high:g})"
 
 
 def least(rows: np.ndarray, wanted: np.ndarray) -> np.ndarray:
@@ -68,6 +64,21 @@ def least(rows: np.ndarray, wanted: np.ndarray) -> np.ndarray:
         errors = np.abs(rows @ found - wanted)
         weight *= 0.5 + errors / np.sqrt(np.mean(errors**2))
     return found
+
+
+def _pairs(degree: int) -> list[tuple[int, int]]:
+    """Exponents of two variables whose sum is at most ``degree``, the smallest sums first."""
+    return [(i, total - i) for total in range(degree + 1) for i in range(total + 1)]
+
+
+def _triples(texts: Sequence[str]) -> list[tuple[str, str, str]]:
+    """``texts`` by threes, and as many zeros as that takes."""
+    filled = [*texts, *["0"] * (-len(texts) % 3)]
+    return list(zip(filled[::3], filled[1::3], filled[2::3], strict=True))
+
+
+def _number(value: float) -> str:
+    return re.sub(r"(?<!\d)0\.", ".", f"{value:.{DIGITS}g}".replace("e-0", "e-"))
 
 
 FUNCTION = """\
@@ -95,7 +106,9 @@ def function(
     """An OSL function of all ``polynomials``, by the ``coefficients`` of GGX, then Beckmann.
 
     No loop and no array: where the surface is the same everywhere, all that depends on it alone is
-    folded when a render starts. Raises ValueError where a coefficient is not finite.
+    folded when a render starts. Three terms are one operation, since OSL reads each of them for
+    every metal, also for those that do not need them. Raises ValueError where a coefficient is not
+    finite.
     """
     if not all(np.isfinite(one).all() for both in coefficients for one in both):
         raise ValueError(f"{name}: a coefficient is not finite")
@@ -112,14 +125,23 @@ def function(
         indent=" " * len(f"void {name}("),
         comment="\n".join(f"// {line}" for line in comment.splitlines()),
         count=len(polynomials),
-        products="\n".join(_products("a", "x0", "x1", degree) + _products("b", "x2", "x3", degree)),
+        products="\n".join(_vectors("x0", "x1", degree) + _products("b", "x2", "x3", degree)),
         first=first,
         second=second,
     )
 
 
+def _vectors(x: str, y: str, degree: int) -> list[str]:
+    """Lines for the vectors a0, a1 ... of all products of the Chebyshev polynomials of two
+    variables, in the order of `_pairs`."""
+    names = [f"p{i}{j}" if i or j else "1" for i, j in _pairs(degree)]
+    threes = enumerate(_triples(names))
+    vectors = [f"  vector a{k} = vector({', '.join(three)});" for k, three in threes]
+    return _products("p", x, y, degree) + vectors
+
+
 def _products(letter: str, x: str, y: str, degree: int) -> list[str]:
-    """Lines for the products of the Chebyshev polynomials of two variables: a23 is T2(x) T3(y)."""
+    """Lines for the products of the Chebyshev polynomials of two variables: b23 is T2(x) T3(y)."""
     lines = []
     for variable, name in ((x, letter + "{}0"), (y, letter + "0{}")):
         rules = [variable, f"2 * {variable} * {variable} - 1"]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first bounce of a diffuse surface: light goes wherever its facets face, times the chance to
 // leave.
-#ifndef MICROBOUNCE_DIFFUSE_H
-#define MICROBOUNCE_DIFFUSE_H
+#ifndef MICROBOUNCE_FIRST_DIFFUSE_H
+#define MICROBOUNCE_FIRST_DIFFUSE_H
 
 #include "exits.h"
 #include "ramp.h"
@@ -66,8 +66,8 @@ closure color carrier_closures(Frame frame, Carrier carrier, color weight)
   return ramp_lobe(frame.z, ramp, 1) + nayar_lobe(frame.z, weight * carrier.nayar);
 }
 
-closure color diffuse_first_bounce(Frame frame, Microsurface surface, Facet facet, float kernel,
-                                   vector wi, output RandomStream stream)
+closure color first_bounce(Frame frame, Microsurface surface, Facet facet, float kernel, vector wi,
+                           output RandomStream stream)
 {
   Incidence arrival = incidence(surface, wi);
   vector shift = next_numbers(stream), turns = next_numbers(stream);
