@@ -18,8 +18,8 @@ PATCHES = {
     # Every bounce of one walk, as where the camera does not look, but with the kernel of Walk.
     "whole walk": (
         (
-            "int whole = accuracy.quality == 3 || (accuracy.quality > 0 && unseen);",
-            "int whole = accuracy.quality > 0;",
+            "int one = accuracy.quality == 3 || (accuracy.quality > 0 && one_walk);",
+            "int one = accuracy.quality > 0;",
         ),
         (
             "smooth_exit(frame, surface, facet, kernel, relative,",

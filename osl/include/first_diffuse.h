@@ -6,7 +6,9 @@
 
 #include "exits.h"
 #include "ramp.h"
-#include "walk.h"
+#include "random.h"
+#include "smith.h"
+#include "visible.h"
 
 #define DIFFUSE_FACETS 16
 #define DIFFUSE_EXITS 8

@@ -4,8 +4,6 @@
 #define MICROBOUNCE_FITTED_H
 
 #include "accuracy.h"
-#include "frame.h"
-#include "ramp.h"
 
 // Tables are of height-correlated surfaces, for all bounces together, and of metal alone where the
 // surface is anisotropic. Shaders go on in an else: as a render starts OSL drops the branch that is

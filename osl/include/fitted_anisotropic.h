@@ -6,6 +6,8 @@
 
 #include "../tables/anisotropic_lobes.h"
 #include "fitted.h"
+#include "frame.h"
+#include "ramp.h"
 
 // 1 along the normal, 0 along the horizon, as a surface of alpha 1 would see it.
 float stretched_cosine(vector stretched)

@@ -7,6 +7,7 @@
 #include "../tables/conductor_lobes.h"
 #include "fitted.h"
 #include "fitted_anisotropic.h"
+#include "ramp.h"
 #include "reflection.h"
 
 // Aspects (1 - alpha_y / alpha_x) up to this pass from isotropic closures to anisotropic ones.

@@ -7,6 +7,7 @@
 
 #include "../tables/dielectric_lobes.h"
 #include "fitted.h"
+#include "ramp.h"
 #include "refraction.h"
 
 // Alphas from which on Cycles' refraction is left for Single's, within a CROSSFADE: evaluated where

@@ -6,6 +6,8 @@
 
 #include "../tables/diffuse_lobes.h"
 #include "fitted.h"
+#include "frame.h"
+#include "ramp.h"
 
 // The closures' shares in bounces 1, 2 and all later ones, from the table's values on.
 #define LOBES_OF_1 0

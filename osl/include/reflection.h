@@ -6,7 +6,9 @@
 #define MICROBOUNCE_REFLECTION_H
 
 #include "exits.h"
-#include "walk.h"
+#include "random.h"
+#include "smith.h"
+#include "visible.h"
 
 #define FACETS 10
 

@@ -6,7 +6,7 @@
 #include "reflection.h"
 
 // A facet's lobe is narrower where the facet stands nearly upright, since no facet leans over: at
-// most so much of the facet's z, down to a part.
+// most so much of the facet's z, but no less than a part of FACET_LOBE.
 #define LOBE_PER_Z 0.14
 #define NARROWEST_LOBE 0.14
 

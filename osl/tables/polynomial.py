@@ -42,11 +42,12 @@ class Polynomial:
         return np.clip(self.terms(place) @ coefficients, self.low, self.high)
 
     def text(self, coefficients: np.ndarray) -> str:
-        """Its value in OSL, of the products that `function` names."""
+        """Its value in OSL, of the vectors a0, a1 ... and the products b10, b01 ... that `function`
+        names."""
         numbers = dict(zip(self.exponents, (_number(c) for c in coefficients), strict=True))
         parts = []
         for e in dict.fromkeys(e[2:] for e in self.exponents):
-            row = [numbers[pair + e] for pair in _pairs(self.degree - sum(e))]
+            row = [numbers.get(pair + e, "0") for pair in _pairs(self.degree - sum(e))]
             dots = [f"dot(vector({', '.join(one)}), a{i})" for i, one in enumerate(_triples(row))]
             parts.append(f"b{e[0]}{e[1]} * ({' + '.join(dots)})" if any(e) else " + ".join(dots))
         return f"clamp({' + '.join(parts)}, {self.low:g}, {self.high:g})"
@@ -141,7 +142,8 @@ def _vectors(x: str, y: str, degree: int) -> list[str]:
 
 
 def _products(letter: str, x: str, y: str, degree: int) -> list[str]:
-    """Lines for the products of the Chebyshev polynomials of two variables: b23 is T2(x) T3(y)."""
+    """Lines for the products of the Chebyshev polynomials of two variables: with the letter b, b23
+    is T2(x) T3(y)."""
     lines = []
     for variable, name in ((x, letter + "{}0"), (y, letter + "0{}")):
         rules = [variable, f"2 * {variable} * {variable} - 1"]
