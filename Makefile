@@ -75,7 +75,7 @@ references: ## Render the oracle's reference pictures anew (about 35 minutes)
 figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
 	@$(any) -m blender_tests.figures
 
-bench: ## Measure what accuracy costs in time (docs/benchmarks; an hour and more on two idle cores)
+bench: ## Measure what accuracy costs in time (docs/benchmarks; about 40 minutes on two idle cores)
 	@$(any) -m blender_tests.bench $(BENCH_ARGS)
 
 bench-check: ## Fail where a quick benchmark's ratios of times grew (about two minutes)
