@@ -70,19 +70,19 @@ previews: ## Render the presets' pictures that are missing or old (addon/preview
 	@$(any) -m tools.render_previews
 
 references: ## Render the oracle's reference pictures anew (about 35 minutes)
-	@$(any) -m blender_tests.oracle.references
+	@$(any) -m osl.oracle.references
 
 figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
-	@$(any) -m blender_tests.figures
+	@$(any) -m tools.figures
 
 bench: ## Measure what accuracy costs in time (docs/benchmarks; about 40 minutes on two idle cores)
-	@$(any) -m blender_tests.bench $(BENCH_ARGS)
+	@$(any) -m tools.bench $(BENCH_ARGS)
 
 bench-check: ## Fail where a quick benchmark's ratios of times grew (about two minutes)
-	@$(any) -m blender_tests.bench --check
+	@$(any) -m tools.bench --check
 
 gains: ## Measure what each change gained that made the shaders faster (docs/benchmarks/gains.md)
-	@$(any) -m blender_tests.bench.gains
+	@$(any) -m tools.bench.gains
 
 tables: ## Fit the shaders' tables anew (osl/tables; about nine minutes on two cores)
 	@$(any) -m osl.tables

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent / "blender_tests"
-WITHOUT_BLENDER = (TESTS / "figures", TESTS / "oracle")
+WITHOUT_BLENDER = (TESTS / "tools" / "figures", TESTS / "oracle")
 
 _exit_status = 0
 

@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from blender_tests.oracle import Diffuse, Surface, energies
+from osl.oracle import Diffuse, Surface, energies
 
 # Two seeds differ by less than 0.001 in a total albedo (a test compares them).
 _DIRECTIONS, _WALKS, _SEED = 64, 8192, 1

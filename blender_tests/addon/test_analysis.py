@@ -10,11 +10,11 @@ from addon.core import analysis, step_errors
 from addon.core.analysis import Choice, Surface, missing_after, predicted_error
 from addon.core.kinds import KINDS
 from addon.core.reflectance import mean_of_index, mean_of_tint
-from blender_tests.oracle import Conductor, Diffuse, IndexOfRefraction, sphere
-from blender_tests.oracle import Surface as OracleSurface
-from blender_tests.oracle.balanced import BalancedDielectric
-from blender_tests.oracle.fresnel import F82Tint
-from blender_tests.oracle.reference_cases import CLAY, COPPER, GOLD
+from osl.oracle import Conductor, Diffuse, IndexOfRefraction, sphere
+from osl.oracle import Surface as OracleSurface
+from osl.oracle.balanced import BalancedDielectric
+from osl.oracle.fresnel import F82Tint
+from osl.oracle.reference_cases import CLAY, COPPER, GOLD
 from tools import measure_steps
 from tools.steps import bounces
 

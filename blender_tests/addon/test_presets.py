@@ -15,7 +15,7 @@ from addon.core import presets as library
 from addon.core.kinds import KINDS
 from addon.core.presets import Finish, Preset, PresetError, finishes, preset, presets, problems
 from blender_tests.addon.support import small_scene
-from blender_tests.oracle.fresnel import COS_82, F82Tint, IndexOfRefraction
+from osl.oracle.fresnel import COS_82, F82Tint, IndexOfRefraction
 
 GOLD = (library.FOLDER / "conductor" / "gold.toml").read_text(encoding="utf-8")
 

@@ -6,19 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
-    GGX,
-    HEIGHT_TRACKED,
-    Dielectric,
-    Surface,
-    bidirectional,
-    energies,
-    evaluate,
-)
-from blender_tests.oracle.balanced import BalancedDielectric
-from blender_tests.oracle.reference_cases import CASES, GLASS
-from blender_tests.oracle.vectors import direction
-from blender_tests.oracle.view import to_local
+from osl.oracle import GGX, HEIGHT_TRACKED, Dielectric, Surface, bidirectional, energies, evaluate
+from osl.oracle.balanced import BalancedDielectric
+from osl.oracle.reference_cases import CASES, GLASS
+from osl.oracle.vectors import direction
+from osl.oracle.view import to_local
 
 
 @pytest.mark.parametrize("ior", [1.5, 1.0 / 1.5])

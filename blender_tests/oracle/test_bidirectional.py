@@ -4,21 +4,15 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface, bidirectional, evaluate
-from blender_tests.oracle.fresnel import dielectric_reflectance
-from blender_tests.oracle.masking import exit_odds
-from blender_tests.oracle.materials import Scattered
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import gauss_legendre
-from blender_tests.oracle.surface import (
-    BECKMANN,
-    CORRELATED,
-    GGX,
-    HEIGHT_TRACKED,
-    UNCORRELATED,
-)
-from blender_tests.oracle.vectors import direction, dot, half_vector, normalize
-from blender_tests.oracle.walk import bounces, turn_and_leave
+from osl.oracle import Conductor, Dielectric, Diffuse, Surface, bidirectional, evaluate
+from osl.oracle.fresnel import dielectric_reflectance
+from osl.oracle.masking import exit_odds
+from osl.oracle.materials import Scattered
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import gauss_legendre
+from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, UNCORRELATED
+from osl.oracle.vectors import direction, dot, half_vector, normalize
+from osl.oracle.walk import bounces, turn_and_leave
 
 WI = direction(1.2)
 CASES = [

@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.error_function import INV_SQRT_PI, deficit
-from blender_tests.oracle.quadrature import gauss_legendre
+from osl.oracle.error_function import INV_SQRT_PI, deficit
+from osl.oracle.quadrature import gauss_legendre
 
 # Measured 1.2e-14; the rule used here has rounding of its own.
 RELATIVE = 1e-13

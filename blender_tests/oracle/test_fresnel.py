@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle import F82Tint, IndexOfRefraction, White
+from osl.oracle import F82Tint, IndexOfRefraction, White
 
 GOLD = ((0.95, 0.75, 0.35), (0.98, 0.95, 0.75))
 COPPER = ((0.20, 0.92, 1.10), (3.91, 2.45, 2.14))

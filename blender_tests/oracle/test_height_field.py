@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from blender_tests.oracle.height_field import HeightField
-from blender_tests.oracle.ndf import D
-from blender_tests.oracle.quadrature import gauss_legendre
-from blender_tests.oracle.surface import BECKMANN, Surface
-from blender_tests.oracle.vectors import normalize, vector
+from osl.oracle.height_field import HeightField
+from osl.oracle.ndf import D
+from osl.oracle.quadrature import gauss_legendre
+from osl.oracle.surface import BECKMANN, Surface
+from osl.oracle.vectors import normalize, vector
 
 FIELDS = 64
 SIDE = 64  # in correlation lengths

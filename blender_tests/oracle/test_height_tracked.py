@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.special import beta, ndtr, ndtri
 
-from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface, energies
-from blender_tests.oracle.ndf import Lambda
-from blender_tests.oracle.surface import BECKMANN, GGX, HEIGHT_TRACKED
-from blender_tests.oracle.vectors import direction
-from blender_tests.oracle.visible import sample
+from osl.oracle import Conductor, Dielectric, Diffuse, Surface, energies
+from osl.oracle.ndf import Lambda
+from osl.oracle.surface import BECKMANN, GGX, HEIGHT_TRACKED
+from osl.oracle.vectors import direction
+from osl.oracle.visible import sample
 
 NDFS = [GGX, BECKMANN]
 

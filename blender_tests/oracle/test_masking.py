@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.chi_square import sidak, uniform_p_value
-from blender_tests.oracle.masking import (
+from osl.oracle.chi_square import sidak, uniform_p_value
+from osl.oracle.masking import (
     G1,
     G2,
     G2_middle,
@@ -15,9 +15,9 @@ from blender_tests.oracle.masking import (
     height_from_below,
     next_height,
 )
-from blender_tests.oracle.ndf import Lambda, sigma
-from blender_tests.oracle.quadrature import heights, projected_area
-from blender_tests.oracle.surface import (
+from osl.oracle.ndf import Lambda, sigma
+from osl.oracle.quadrature import heights, projected_area
+from osl.oracle.surface import (
     BECKMANN,
     CORRELATED,
     GGX,
@@ -26,7 +26,7 @@ from blender_tests.oracle.surface import (
     UNCORRELATED,
     Surface,
 )
-from blender_tests.oracle.vectors import direction, normalize, vector
+from osl.oracle.vectors import direction, normalize, vector
 
 ALPHAS = [(0.1, 0.1), (0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
 SURFACES = [Surface(x, y, ndf) for ndf in (GGX, BECKMANN) for x, y in ALPHAS]

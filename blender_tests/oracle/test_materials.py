@@ -6,20 +6,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
-    Conductor,
-    Dielectric,
-    Diffuse,
-    F82Tint,
-    IndexOfRefraction,
-    Surface,
-    evaluate,
-)
-from blender_tests.oracle.fresnel import dielectric_reflectance
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import Zone, basis, facet_zones, visible_normals
-from blender_tests.oracle.surface import BECKMANN
-from blender_tests.oracle.vectors import direction, dot, normalize
+from osl.oracle import Conductor, Dielectric, Diffuse, F82Tint, IndexOfRefraction, Surface, evaluate
+from osl.oracle.fresnel import dielectric_reflectance
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import Zone, basis, facet_zones, visible_normals
+from osl.oracle.surface import BECKMANN
+from osl.oracle.vectors import direction, dot, normalize
 
 IORS = [1.1, 1.5, 2.4, 1.0 / 1.5]
 SURFACES = [Surface(0.5, 0.5), Surface(1.0, 0.3), Surface(0.5, 0.5, BECKMANN)]

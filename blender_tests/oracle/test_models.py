@@ -8,24 +8,11 @@ stays a pass; a right walk would fail one comparison in 16 000.
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
-    Conductor,
-    Dielectric,
-    Diffuse,
-    Surface,
-    energies,
-    evaluate,
-)
-from blender_tests.oracle.masking import exit_odds
-from blender_tests.oracle.ndf import sigma
-from blender_tests.oracle.surface import (
-    BECKMANN,
-    CORRELATED,
-    GGX,
-    HEIGHT_TRACKED,
-    MODELS,
-)
-from blender_tests.oracle.vectors import direction
+from osl.oracle import Conductor, Dielectric, Diffuse, Surface, energies, evaluate
+from osl.oracle.masking import exit_odds
+from osl.oracle.ndf import sigma
+from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, MODELS
+from osl.oracle.vectors import direction
 
 NDFS = [GGX, BECKMANN]
 ALPHAS = [(0.1, 0.1), (0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]

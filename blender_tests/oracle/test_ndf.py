@@ -4,10 +4,10 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.ndf import D, Dvis, Lambda, sigma
-from blender_tests.oracle.quadrature import gauss_legendre, stretched_normals, visible_normals
-from blender_tests.oracle.surface import BECKMANN, GGX, Surface
-from blender_tests.oracle.vectors import direction, dot
+from osl.oracle.ndf import D, Dvis, Lambda, sigma
+from osl.oracle.quadrature import gauss_legendre, stretched_normals, visible_normals
+from osl.oracle.surface import BECKMANN, GGX, Surface
+from osl.oracle.vectors import direction, dot
 
 WIDTHS = [(0.01, 0.01), (0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1), (0.02, 0.4)]
 # From straight up to straight down, through both sides of the horizon.

@@ -11,26 +11,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
-    Conductor,
-    Dielectric,
-    Diffuse,
-    F82Tint,
-    Surface,
-    bidirectional,
-    evaluate,
-)
-from blender_tests.oracle.masking import G1, G2, G2_middle, exit_odds
-from blender_tests.oracle.ndf import Lambda, sigma
-from blender_tests.oracle.path import Path, contribution, random_paths
-from blender_tests.oracle.surface import (
-    BECKMANN,
-    CORRELATED,
-    GGX,
-    HEIGHT_TRACKED,
-    UNCORRELATED,
-)
-from blender_tests.oracle.vectors import direction, half_vector
+from osl.oracle import Conductor, Dielectric, Diffuse, F82Tint, Surface, bidirectional, evaluate
+from osl.oracle.masking import G1, G2, G2_middle, exit_odds
+from osl.oracle.ndf import Lambda, sigma
+from osl.oracle.path import Path, contribution, random_paths
+from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, UNCORRELATED
+from osl.oracle.vectors import direction, half_vector
 
 NDFS = [GGX, BECKMANN]
 GOLD = Conductor(F82Tint((0.9, 0.5, 0.2), (0.8, 0.9, 1.0)))

@@ -8,11 +8,11 @@ across the groove turns by a multiple of its opening angle, so the bounces can b
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Conductor, Dielectric
-from blender_tests.oracle.height_field import HeightField
-from blender_tests.oracle.ray_tracer import Tracer
-from blender_tests.oracle.simulation import simulate
-from blender_tests.oracle.vectors import direction
+from osl.oracle import Conductor, Dielectric
+from osl.oracle.height_field import HeightField
+from osl.oracle.ray_tracer import Tracer
+from osl.oracle.simulation import simulate
+from osl.oracle.vectors import direction
 
 RAYS = 20_000
 

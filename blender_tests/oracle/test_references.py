@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from blender_tests.oracle import exr, references
-from blender_tests.oracle.reference_cases import CASES
+from osl.oracle import exr, references
+from osl.oracle.reference_cases import CASES
 
 ROWS = [14, 30, 40]  # of a reference, through dim and bright parts
 LIT_PIXELS = 50  # or more are compared

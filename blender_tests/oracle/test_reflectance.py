@@ -6,7 +6,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 
-from blender_tests.oracle.fresnel import dielectric_reflectance
+from osl.oracle.fresnel import dielectric_reflectance
 
 IORS = [1.1, 1.5, 2.4, 1.0 / 1.5]
 

@@ -11,13 +11,13 @@ from functools import partial
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface
-from blender_tests.oracle.chi_square import count_in_cells, integrate_cells, p_value, sidak
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import Zone, facet_zones, visible_normals
-from blender_tests.oracle.surface import BECKMANN, GGX
-from blender_tests.oracle.vectors import direction, dot
-from blender_tests.oracle.visible import sample
+from osl.oracle import Conductor, Dielectric, Diffuse, Surface
+from osl.oracle.chi_square import count_in_cells, integrate_cells, p_value, sidak
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import Zone, facet_zones, visible_normals
+from osl.oracle.surface import BECKMANN, GGX
+from osl.oracle.vectors import direction, dot
+from osl.oracle.visible import sample
 
 WIDTHS = [(0.5, 0.5), (1.0, 0.3), (0.25, 0.25)]
 # v above the horizon, next to it, and below it

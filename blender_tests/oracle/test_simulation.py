@@ -9,12 +9,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface, energies
-from blender_tests.oracle.height_field import HeightField
-from blender_tests.oracle.ray_tracer import Tracer
-from blender_tests.oracle.simulation import simulate, simulated_energies
-from blender_tests.oracle.surface import BECKMANN
-from blender_tests.oracle.vectors import direction, dot
+from osl.oracle import Conductor, Dielectric, Diffuse, Surface, energies
+from osl.oracle.height_field import HeightField
+from osl.oracle.ray_tracer import Tracer
+from osl.oracle.simulation import simulate, simulated_energies
+from osl.oracle.surface import BECKMANN
+from osl.oracle.vectors import direction, dot
 
 LEAKS = 1e-4  # share of rays that may be lost
 ALPHAS = [(0.25, 0.25), (1.0, 1.0), (1.0, 0.1)]

@@ -4,19 +4,10 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
-    BECKMANN,
-    GGX,
-    Dielectric,
-    Diffuse,
-    Surface,
-    first_bounce,
-    slab,
-    sphere,
-)
-from blender_tests.oracle import picture as pictures
-from blender_tests.oracle.vectors import dot, normalize
-from blender_tests.oracle.view import to_local
+from osl.oracle import BECKMANN, GGX, Dielectric, Diffuse, Surface, first_bounce, slab, sphere
+from osl.oracle import picture as pictures
+from osl.oracle.vectors import dot, normalize
+from osl.oracle.view import to_local
 
 
 def test_points_lie_on_the_sphere_behind_their_pixels():

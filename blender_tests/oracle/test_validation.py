@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
+from osl.oracle import (
     Conductor,
     Dielectric,
     Diffuse,
@@ -18,9 +18,9 @@ from blender_tests.oracle import (
     first_bounce,
     lobe,
 )
-from blender_tests.oracle.masking import G1, G2
-from blender_tests.oracle.ndf import Dvis
-from blender_tests.oracle.vectors import direction, half_vector
+from osl.oracle.masking import G1, G2
+from osl.oracle.ndf import Dvis
+from osl.oracle.vectors import direction, half_vector
 
 UP = direction(0.3)
 WHITE = Surface(0.5, 0.5)
@@ -122,4 +122,4 @@ def test_the_oracle_imports_nothing_of_what_it_judges():
             for module in modules:
                 assert module.split(".")[0] in allowed, f"{file.name} imports {module}"
                 if module.startswith("blender_tests"):
-                    assert module.startswith("blender_tests.oracle"), f"{file.name}: {module}"
+                    assert module.startswith("osl.oracle"), f"{file.name}: {module}"

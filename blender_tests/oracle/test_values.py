@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from blender_tests.oracle import (
+from osl.oracle import (
     Conductor,
     Dielectric,
     Diffuse,
@@ -24,19 +24,12 @@ from blender_tests.oracle import (
     first_bounce,
     lobe,
 )
-from blender_tests.oracle.masking import exit_odds
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import facet_zones, upper_hemisphere, visible_normals
-from blender_tests.oracle.surface import (
-    BECKMANN,
-    CORRELATED,
-    GGX,
-    HEIGHT_TRACKED,
-    MODELS,
-    UNCORRELATED,
-)
-from blender_tests.oracle.vectors import direction, dot, to_side
-from blender_tests.oracle.walk import ROULETTE, turn_and_leave
+from osl.oracle.masking import exit_odds
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import facet_zones, upper_hemisphere, visible_normals
+from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, MODELS, UNCORRELATED
+from osl.oracle.vectors import direction, dot, to_side
+from osl.oracle.walk import ROULETTE, turn_and_leave
 
 NDFS = [GGX, BECKMANN]
 MATERIALS = [

@@ -4,12 +4,12 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.chi_square import count_in_cells, integrate_cells, p_value, sidak
-from blender_tests.oracle.ndf import Dvis
-from blender_tests.oracle.quadrature import stretched_coordinates, stretched_normals
-from blender_tests.oracle.surface import BECKMANN, GGX, Surface
-from blender_tests.oracle.vectors import direction
-from blender_tests.oracle.visible import from_uniforms, sample, slope_along, slope_distribution
+from osl.oracle.chi_square import count_in_cells, integrate_cells, p_value, sidak
+from osl.oracle.ndf import Dvis
+from osl.oracle.quadrature import stretched_coordinates, stretched_normals
+from osl.oracle.surface import BECKMANN, GGX, Surface
+from osl.oracle.vectors import direction
+from osl.oracle.visible import from_uniforms, sample, slope_along, slope_distribution
 
 WIDTHS = [(0.05, 0.05), (0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1)]
 # from straight up over both sides of the horizon to far below it

@@ -8,21 +8,13 @@ a pass, and a right walk would fail such a test once in 16 000 seeds.
 import numpy as np
 import pytest
 
-from blender_tests.oracle import (
-    Conductor,
-    F82Tint,
-    Surface,
-    energies,
-    evaluate,
-    first_bounce,
-    lobe,
-)
-from blender_tests.oracle.masking import exit_probability
-from blender_tests.oracle.ndf import D, Lambda, sigma
-from blender_tests.oracle.quadrature import gauss_legendre, upper_hemisphere
-from blender_tests.oracle.surface import BECKMANN, GGX
-from blender_tests.oracle.vectors import direction, dot, half_vector, normalize
-from blender_tests.oracle.walk import bounces, turn_and_leave
+from osl.oracle import Conductor, F82Tint, Surface, energies, evaluate, first_bounce, lobe
+from osl.oracle.masking import exit_probability
+from osl.oracle.ndf import D, Lambda, sigma
+from osl.oracle.quadrature import gauss_legendre, upper_hemisphere
+from osl.oracle.surface import BECKMANN, GGX
+from osl.oracle.vectors import direction, dot, half_vector, normalize
+from osl.oracle.walk import bounces, turn_and_leave
 
 NDFS = [GGX, BECKMANN]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from blender_tests.oracle.surface import BECKMANN, GGX, MODELS, Surface
+from osl.oracle.surface import BECKMANN, GGX, MODELS, Surface
 
 DISTRIBUTIONS = (GGX, BECKMANN)
 ALPHAS = (0.001, 0.004, 0.02, 0.07, 0.25, 0.5, 0.8, 1.0)

@@ -4,10 +4,10 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.materials import Dielectric, Diffuse
-from blender_tests.oracle.surface import Surface
-from blender_tests.oracle.vectors import direction
-from blender_tests.oracle.walk import bounces
+from osl.oracle.materials import Dielectric, Diffuse
+from osl.oracle.surface import Surface
+from osl.oracle.vectors import direction
+from osl.oracle.walk import bounces
 
 from .probe import evaluate
 from .samples import DISTRIBUTIONS, SURFACE, Rows

@@ -4,11 +4,11 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.masking import exit_probability
-from blender_tests.oracle.ndf import sigma
-from blender_tests.oracle.surface import BECKMANN, Surface
-from blender_tests.oracle.vectors import direction, normalize
-from blender_tests.oracle.visible import sample
+from osl.oracle.masking import exit_probability
+from osl.oracle.ndf import sigma
+from osl.oracle.surface import BECKMANN, Surface
+from osl.oracle.vectors import direction, normalize
+from osl.oracle.visible import sample
 
 from .probe import evaluate
 

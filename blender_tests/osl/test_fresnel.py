@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from blender_tests.oracle.fresnel import F82Tint, IndexOfRefraction
+from osl.oracle.fresnel import F82Tint, IndexOfRefraction
 
 from .probe import evaluate
 from .samples import relative_error

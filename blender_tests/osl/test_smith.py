@@ -4,11 +4,11 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle.masking import exit_probability
-from blender_tests.oracle.ndf import sigma
-from blender_tests.oracle.surface import BECKMANN, Surface
-from blender_tests.oracle.vectors import direction
-from blender_tests.oracle.walk import bounces
+from osl.oracle.masking import exit_probability
+from osl.oracle.ndf import sigma
+from osl.oracle.surface import BECKMANN, Surface
+from osl.oracle.vectors import direction
+from osl.oracle.walk import bounces
 
 from .probe import evaluate
 from .samples import DISTRIBUTIONS, SURFACE, Rows, above, all_surfaces, directions, relative_error

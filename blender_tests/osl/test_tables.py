@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 
-from blender_tests.oracle.error_function import deficit
-from blender_tests.oracle.materials import Diffuse
-from blender_tests.oracle.surface import BECKMANN, GGX, Surface
+from osl.oracle.error_function import deficit
+from osl.oracle.materials import Diffuse
+from osl.oracle.surface import BECKMANN, GGX, Surface
 from osl.tables import conductor, diffuse, grid
 from osl.tables.__main__ import FITTED, is_stale, path
 from osl.tables.special import is_stale as are_special_stale

@@ -7,8 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from blender_tests.oracle import lobe
-from blender_tests.oracle.surface import BECKMANN, GGX
+from osl.oracle import lobe
+from osl.oracle.surface import BECKMANN, GGX
 from osl.tables import anisotropic
 from osl.tables.__main__ import path
 from osl.tables.anisotropic_views import (

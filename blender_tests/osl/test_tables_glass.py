@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from blender_tests.oracle.materials import Dielectric
-from blender_tests.oracle.surface import BECKMANN, GGX, Surface
+from osl.oracle.materials import Dielectric
+from osl.oracle.surface import BECKMANN, GGX, Surface
 from osl.tables import dielectric, grid
 from osl.tables.__main__ import path
 from osl.tables.dielectric_energy import missing_energy

@@ -6,8 +6,8 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from blender_tests.oracle.surface import BECKMANN, GGX
-from blender_tests.oracle.visible import from_uniforms, slope_along, slope_distribution
+from osl.oracle.surface import BECKMANN, GGX
+from osl.oracle.visible import from_uniforms, slope_along, slope_distribution
 
 from .probe import evaluate
 from .samples import DISTRIBUTIONS, SURFACE, Rows, all_surfaces, directions, relative_error

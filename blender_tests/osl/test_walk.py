@@ -6,12 +6,12 @@ from itertools import product
 import numpy as np
 import pytest
 
-from blender_tests.oracle.estimate import energies
-from blender_tests.oracle.fresnel import F82Tint
-from blender_tests.oracle.materials import Conductor, Dielectric, Diffuse, Material
-from blender_tests.oracle.surface import GGX, MODELS, Surface
-from blender_tests.oracle.vectors import direction
-from blender_tests.oracle.walk import bounces
+from osl.oracle.estimate import energies
+from osl.oracle.fresnel import F82Tint
+from osl.oracle.materials import Conductor, Dielectric, Diffuse, Material
+from osl.oracle.surface import GGX, MODELS, Surface
+from osl.oracle.vectors import direction
+from osl.oracle.walk import bounces
 
 from .probe import evaluate
 from .samples import DISTRIBUTIONS, SURFACE, widths

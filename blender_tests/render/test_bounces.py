@@ -4,11 +4,10 @@
 import numpy as np
 import pytest
 
-from blender_tests.oracle import Conductor, Dielectric, Diffuse, Surface, energies, sphere
-from blender_tests.oracle.surface import CORRELATED, GGX, HEIGHT_TRACKED, UNCORRELATED
-
-from . import pictures
-from .pictures import Widths
+from osl.oracle import Conductor, Dielectric, Diffuse, Surface, energies, sphere
+from osl.oracle.surface import CORRELATED, GGX, HEIGHT_TRACKED, UNCORRELATED
+from scenes import pictures
+from scenes.pictures import Widths
 
 MATERIALS = {"CONDUCTOR": Conductor(), "DIELECTRIC": Dielectric(1.5), "DIFFUSE": Diffuse()}
 MODELS = {

@@ -9,12 +9,11 @@ import bpy
 import numpy as np
 import pytest
 
-from blender_tests.oracle import GGX, Dielectric, Surface, slab, sphere
-from blender_tests.oracle.view import View
-from blender_tests.oracle.walk import bounces
-
-from . import pictures
-from .pictures import Widths
+from osl.oracle import GGX, Dielectric, Surface, slab, sphere
+from osl.oracle.view import View
+from osl.oracle.walk import bounces
+from scenes import pictures
+from scenes.pictures import Widths
 
 SIZE = 32
 ANGLE = 0.5  # rad across

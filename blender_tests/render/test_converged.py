@@ -8,19 +8,13 @@ surface refracts. Reflection is measured where the sun shines on the side that i
 under a sun from behind and through a slab.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
-from . import pictures
-from .pictures import Widths
+from scenes import pictures
+from scenes.pictures import Widths
+from scenes.references import CASES, SAMPLES, SAMPLES_OF_WIDE_REFRACTIONS, Case
 
-# Samples of each of a case's two renders. Reflections of glass of alpha 1 are the dim part of its
-# light, and its transmission has narrow lobes: they have more noise.
-SAMPLES = {"sun": 64, "back": 192, "inside": 128, "slab": 64}
-SAMPLES_OF_DIM_REFLECTIONS = 256
-SAMPLES_OF_WIDE_REFRACTIONS = 768
 SAMPLES_OF_FIRST_BOUNCES = 48
 # From so many on one Blender version is enough.
 LONG = 256
@@ -28,74 +22,16 @@ LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
 # Of refraction by a surface whose narrower alpha is below 0.3: Cycles' refraction is isotropic, so
 # that its lobes are as wide one way as the other.
 LIMIT_OF_NARROW_REFRACTION = 0.1
-# How the references' names call them. A white metal and glass of IOR 1.5 lose nothing.
-NAMES = {"CONDUCTOR": "white", "DIELECTRIC": "glass", "DIFFUSE": "diffuse"}
-OTHER_MODELS = ("height-uncorrelated", "height-tracked")
 CLAY = {"Color": (0.8, 0.5, 0.2)}
 
 
-@dataclass(frozen=True)
-class Case:
-    """A reference picture, and what gives it in Blender."""
-
-    light: str
-    kind: str
-    widths: Widths
-    distribution: str = "GGX"
-    model: str = "height-correlated"
-
-    @property
-    def reference(self) -> str:
-        """The name of its file."""
-        model = self.model.removeprefix("height-")
-        parts = [self.light, NAMES[self.kind], self.distribution.lower(), self.widths.name]
-        return "_".join(parts if model == "correlated" else [*parts, model])
-
-    @property
-    def samples(self) -> int:
-        """Of a render of all bounces."""
-        if self.kind == "DIELECTRIC" and self.widths.alpha_x == 1.0:
-            if self.light == "sun":
-                return SAMPLES_OF_DIM_REFLECTIONS
-            if self.light == "back":
-                return SAMPLES_OF_WIDE_REFRACTIONS
-        return SAMPLES[self.light]
-
-    @property
-    def limit(self) -> float:
-        """Of the error."""
-        if self.light == "back" and self.widths.alpha_y < 0.3:
-            return LIMIT_OF_NARROW_REFRACTION
-        return LIMITS[self.kind]
-
-    @property
-    def values(self) -> dict[str, object]:
-        """The inputs of the material."""
-        return {"Distribution": self.distribution, "Model": self.model, **self.widths.inputs}
+def limit_of(case: Case) -> float:
+    """Of the error."""
+    if case.light == "back" and case.widths.alpha_y < 0.3:
+        return LIMIT_OF_NARROW_REFRACTION
+    return LIMITS[case.kind]
 
 
-def _isotropic(light: str, kind: str, *alphas: float, distribution: str = "GGX") -> list[Case]:
-    return [Case(light, kind, Widths(a, a), distribution) for a in alphas]
-
-
-def _sphere(light: str, kind: str) -> list[Case]:
-    rough = Widths(1.0, 1.0)
-    return [
-        *_isotropic(light, kind, 0.3, 1.0),
-        *_isotropic(light, kind, 0.3, 1.0, distribution="Beckmann"),
-        Case(light, kind, Widths(1.0, 0.1)),
-        *(Case(light, kind, rough, model=model) for model in OTHER_MODELS),
-    ]
-
-
-CASES = [
-    *(Case("sun", "CONDUCTOR", Widths(1.0, 1.0), model=model) for model in OTHER_MODELS),
-    *_sphere("sun", "DIFFUSE"),
-    *_sphere("sun", "DIELECTRIC"),
-    *_sphere("back", "DIELECTRIC"),
-    *_isotropic("inside", "DIELECTRIC", 0.5),
-    *_isotropic("slab", "DIELECTRIC", 0.1, 0.3, 0.6, 1.0),
-]
 # The first bounce of the height-tracked model is the height-correlated one.
 # Refracted by a surface of alpha 1 it has too much noise to say more than all bounces do.
 FIRST_BOUNCES = [
@@ -118,7 +54,7 @@ FIRST_BOUNCES = [
 )
 def test_walk(case: Case, report) -> None:
     """All bounces."""
-    _hold("Walk", case, "mean", case.samples, case.limit, report)
+    _hold("Walk", case, "mean", case.samples, limit_of(case), report)
 
 
 @pytest.mark.once

@@ -8,10 +8,8 @@ import bpy
 import pytest
 
 from addon.nodes.group import new_material
-from scenes import variants
+from scenes import pictures, variants
 from tools.timing import SampleTimes, time_samples
-
-from . import pictures
 
 pytestmark = pytest.mark.timing
 

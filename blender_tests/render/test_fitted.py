@@ -9,11 +9,10 @@ import bpy
 import numpy as np
 import pytest
 
-from blender_tests.oracle.sphere import sphere_points
-from scenes import fixtures, variants
+from osl.oracle.sphere import sphere_points
+from scenes import fixtures, pictures, variants
+from scenes.pictures import WHITE, Widths
 
-from . import pictures
-from .pictures import WHITE, Widths
 from .test_converged import CLAY
 from .test_sphere_sun import COLOURED
 

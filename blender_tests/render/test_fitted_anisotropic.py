@@ -8,12 +8,12 @@ import bpy
 import numpy as np
 import pytest
 
-from blender_tests.oracle import BECKMANN, GGX, Conductor, Surface, energies, sphere
-from blender_tests.oracle.reference_cases import GOLD
 from blender_tests.stability.test_energy import FACETS, PIXELS, Case, build
+from osl.oracle import BECKMANN, GGX, Conductor, Surface, energies, sphere
+from osl.oracle.reference_cases import GOLD
+from scenes import pictures
+from scenes.pictures import WHITE, Widths
 
-from . import pictures
-from .pictures import WHITE, Widths
 from .test_fitted import LARGEST_NOISE_RATIO, hold_noise
 
 DISTRIBUTIONS = ("GGX", "Beckmann")

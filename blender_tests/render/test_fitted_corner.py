@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 from mathutils import Vector
 
-from scenes import common, variants
+from scenes import common, pictures, variants
+from scenes.pictures import WHITE, Widths
 
-from . import pictures
-from .pictures import WHITE, Widths
 from .test_fitted_anisotropic import GOLD_INPUTS
 
 SIZE = 40

@@ -11,15 +11,16 @@ import bpy
 import numpy as np
 import pytest
 
-from blender_tests.oracle.estimate import energies
-from blender_tests.oracle.materials import Dielectric
-from blender_tests.oracle.surface import BECKMANN, GGX, Surface
-from blender_tests.oracle.vectors import direction
 from blender_tests.stability import test_energy as furnaces
-from scenes import common, fixtures, variants
+from osl.oracle.estimate import energies
+from osl.oracle.materials import Dielectric
+from osl.oracle.surface import BECKMANN, GGX, Surface
+from osl.oracle.vectors import direction
+from scenes import common, fixtures, pictures, variants
+from scenes.pictures import Widths
+from scenes.references import CASES as REFERENCES
+from scenes.references import Case
 
-from . import pictures, test_converged
-from .pictures import Widths
 from .test_fitted import LARGEST_NOISE_RATIO, hold_noise
 
 LIMIT = 0.04
@@ -45,7 +46,7 @@ ALPHAS = (1e-4, 0.1, 0.25, 0.325, 0.5, 0.75, 1.0)
 
 CASES = [
     case
-    for case in test_converged.CASES
+    for case in REFERENCES
     if case.kind == "DIELECTRIC"
     and case.model == "height-correlated"
     and case.widths.alpha_x == case.widths.alpha_y
@@ -54,7 +55,7 @@ DISTRIBUTIONS = ("GGX", "Beckmann")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.reference)
-def test_light(case: test_converged.Case, report) -> None:
+def test_light(case: Case, report) -> None:
     """White glass under every light that has a reference."""
     wanted = pictures.reference(case.reference)
     mask, mean = wanted["mask"], wanted["mean"]

@@ -10,11 +10,9 @@ import bpy
 import numpy as np
 import pytest
 
-from blender_tests.oracle.sphere import sphere_points
-from scenes import fixtures, variants
-
-from . import pictures
-from .pictures import Widths
+from osl.oracle.sphere import sphere_points
+from scenes import fixtures, pictures, variants
+from scenes.pictures import Widths
 
 SIZE = 40
 MASK = sphere_points(SIZE, 1)[1]

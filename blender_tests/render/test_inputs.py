@@ -11,9 +11,7 @@ import pytest
 
 from addon.core.parameters import CONDUCTOR
 from addon.nodes.group import new_material
-from scenes import common
-
-from . import pictures
+from scenes import common, pictures
 
 pytestmark = pytest.mark.once
 

@@ -8,12 +8,11 @@ energy and a bias of block means; what is exact is held to the noise of both pic
 import numpy as np
 import pytest
 
-from blender_tests.oracle.estimate import energies
-from blender_tests.oracle.surface import Surface
-from blender_tests.oracle.vectors import direction
-
-from . import pictures
-from .pictures import WHITE, Widths
+from osl.oracle.estimate import energies
+from osl.oracle.surface import Surface
+from osl.oracle.vectors import direction
+from scenes import pictures
+from scenes.pictures import WHITE, Widths
 
 SCENE = "sphere_sun_conductor"
 LIMITS = {

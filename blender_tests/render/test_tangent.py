@@ -7,9 +7,7 @@ import pytest
 
 from addon.core.kinds import KINDS
 from addon.nodes.group import new_material
-from scenes import common
-
-from . import pictures
+from scenes import common, pictures
 
 SIZE = 32
 EVERYWHERE = np.ones((SIZE, SIZE), dtype=bool)

@@ -9,7 +9,7 @@ import pytest
 
 from addon.core.kinds import KINDS
 from addon.nodes.group import has_bytecode, material_group
-from blender_tests.oracle import slab, sphere
+from osl.oracle import slab, sphere
 from scenes import fixtures, render, variants
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"

@@ -11,12 +11,12 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.special import gammaln
 
-from blender_tests.oracle import masking, visible
-from blender_tests.oracle.fresnel import dielectric_reflectance
-from blender_tests.oracle.materials import Dielectric
-from blender_tests.oracle.ndf import sigma
-from blender_tests.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, MODELS
-from blender_tests.oracle.vectors import dot
+from osl.oracle import masking, visible
+from osl.oracle.fresnel import dielectric_reflectance
+from osl.oracle.materials import Dielectric
+from osl.oracle.ndf import sigma
+from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, MODELS
+from osl.oracle.vectors import dot
 
 # The smallest random number but 0.
 SMALLEST = 1e-7

@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from blender_tests.oracle.surface import BECKMANN, GGX, MODELS
+from osl.oracle.surface import BECKMANN, GGX, MODELS
 
 # Angles from the horizon or from the normal, rad.
 _CLOSE = (0.0, 1e-7, 1e-6, 1e-5, 5e-5, 1e-4)

@@ -12,13 +12,13 @@ import numpy as np
 from hypothesis.strategies import SearchStrategy
 from scipy.special import erf, exprel
 
-from blender_tests.oracle import masking, visible
-from blender_tests.oracle.error_function import deficit
-from blender_tests.oracle.fresnel import F82Tint, IndexOfRefraction, dielectric_reflectance
-from blender_tests.oracle.materials import Diffuse
-from blender_tests.oracle.surface import BECKMANN, CORRELATED, GGX, UNCORRELATED
-from blender_tests.oracle.vectors import dot
 from blender_tests.osl.samples import SURFACE
+from osl.oracle import masking, visible
+from osl.oracle.error_function import deficit
+from osl.oracle.fresnel import F82Tint, IndexOfRefraction, dielectric_reflectance
+from osl.oracle.materials import Diffuse
+from osl.oracle.surface import BECKMANN, CORRELATED, GGX, UNCORRELATED
+from osl.oracle.vectors import dot
 
 from . import answers
 from . import arguments as a

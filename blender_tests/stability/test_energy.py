@@ -13,9 +13,8 @@ import bpy
 import numpy as np
 import pytest
 
-from blender_tests.render import pictures
-from blender_tests.render.pictures import Widths
-from scenes import common
+from scenes import common, pictures
+from scenes.pictures import Widths
 
 from .linked import linked_material, set_attribute
 

@@ -14,7 +14,7 @@ normal is turned from the surface, Cycles' own closures lose light as well.)
 import numpy as np
 import pytest
 
-from blender_tests.render import pictures
+from scenes import pictures
 
 from .crowd import Thing, build, cells, draw
 from .regressions import THINGS

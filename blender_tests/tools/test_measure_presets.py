@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from blender_tests.oracle.fresnel import IndexOfRefraction
+from osl.oracle.fresnel import IndexOfRefraction
 from tools import measure_presets
 from tools.preset_colour import WAVELENGTHS, colour, daylight, matching_functions
 from tools.preset_database import PhysicallyBased, RefractiveIndex, SourceError

@@ -4,8 +4,8 @@
 import pytest
 
 from addon.core import step_errors
-from blender_tests.render.pictures import Widths
-from blender_tests.render.test_converged import Case
+from scenes.pictures import Widths
+from scenes.references import Case
 from tools.steps import costs, pictures
 
 REMEDY = "run `python -m tools.measure_steps`"

@@ -13,7 +13,7 @@ from . import anisotropic, conductor, dielectric, diffuse, header, special
 from .run import run
 
 FOLDER = Path(__file__).resolve().parent
-ORACLE = FOLDER.parents[1] / "blender_tests" / "oracle"
+ORACLE = FOLDER.parent / "oracle"
 SHARED = ("closures.py", "fitting.py", "grid.py", "header.py")
 # What decides on the values besides the generators.
 MODEL = ("estimate.py", "masking.py", "materials.py", "ndf.py", "visible.py", "walk.py")

@@ -9,7 +9,7 @@ describes the closures are polynomials in these four, fitted to all views at onc
 import numpy as np
 from scipy.linalg import solve
 
-from blender_tests.oracle import BECKMANN, GGX
+from osl.oracle import BECKMANN, GGX
 
 from . import header, polynomial
 from .anisotropic_views import (

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import qmc
 
-from blender_tests.oracle import BECKMANN, CORRELATED, Surface
-from blender_tests.oracle.masking import exit_odds
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import visible_normals
-from blender_tests.oracle.walk import bounces
+from osl.oracle import BECKMANN, CORRELATED, Surface
+from osl.oracle.masking import exit_odds
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import visible_normals
+from osl.oracle.walk import bounces
 
 from .closures import normalized
 from .conductor import fresnel_cosines

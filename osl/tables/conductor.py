@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq, minimize
 
-from blender_tests.oracle import BECKMANN, CORRELATED, GGX, Conductor, Surface, energies
-from blender_tests.oracle.masking import exit_odds
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import visible_normals
+from osl.oracle import BECKMANN, CORRELATED, GGX, Conductor, Surface, energies
+from osl.oracle.masking import exit_odds
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import visible_normals
 
 from . import grid, header
 from .closures import KNOTS, diffuse_ramp, microfacet, normalized

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize
 
-from blender_tests.oracle import BECKMANN, GGX, Dielectric, Surface
-from blender_tests.oracle.ndf import D
-from blender_tests.oracle.quadrature import visible_normals
-from blender_tests.oracle.walk import bounces
+from osl.oracle import BECKMANN, GGX, Dielectric, Surface
+from osl.oracle.ndf import D
+from osl.oracle.quadrature import visible_normals
+from osl.oracle.walk import bounces
 
 from . import grid, header
 from .closures import KNOTS, knots, microfacet

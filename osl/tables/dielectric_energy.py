@@ -3,11 +3,11 @@
 
 import numpy as np
 
-from blender_tests.oracle import BECKMANN, CORRELATED, GGX, Dielectric, Surface
-from blender_tests.oracle.fresnel import dielectric_reflectance
-from blender_tests.oracle.masking import exit_odds
-from blender_tests.oracle.ndf import D, sigma
-from blender_tests.oracle.quadrature import visible_normals
+from osl.oracle import BECKMANN, CORRELATED, GGX, Dielectric, Surface
+from osl.oracle.fresnel import dielectric_reflectance
+from osl.oracle.masking import exit_odds
+from osl.oracle.ndf import D, sigma
+from osl.oracle.quadrature import visible_normals
 
 from . import grid
 from .closures import normalized

@@ -8,7 +8,7 @@ from what the first gives to a closure: with an albedo of at most 1, something i
 
 import numpy as np
 
-from blender_tests.oracle import BECKMANN, CORRELATED, GGX, Diffuse, Surface
+from osl.oracle import BECKMANN, CORRELATED, GGX, Diffuse, Surface
 
 from . import grid, header
 from .closures import KNOTS, diffuse_ramp, oren_nayar

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import nnls
 
-from blender_tests.oracle import Surface, lobe
+from osl.oracle import Surface, lobe
 
 from .closures import KNOTS
 

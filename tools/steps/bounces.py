@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from blender_tests.oracle import (
+from osl.oracle import (
     BECKMANN,
     CORRELATED,
     GGX,
@@ -19,9 +19,9 @@ from blender_tests.oracle import (
     evaluate,
     sphere,
 )
-from blender_tests.oracle.balanced import BalancedDielectric
-from blender_tests.oracle.materials import Material
-from blender_tests.oracle.view import to_local
+from osl.oracle.balanced import BalancedDielectric
+from osl.oracle.materials import Material
+from osl.oracle.view import to_local
 
 SEED = 1
 WALKS = 2000  # at each point: the largest entries then are within 2 % of themselves

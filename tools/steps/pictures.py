@@ -5,9 +5,9 @@ from collections import defaultdict
 from collections.abc import Callable
 
 from addon.core.step_errors import STEPS
-from blender_tests.render import pictures
-from blender_tests.render.pictures import WHITE, Widths
-from blender_tests.render.test_converged import CASES, Case
+from scenes import pictures
+from scenes.pictures import WHITE, Widths
+from scenes.references import CASES, Case
 
 # Distributions and models as the references' names have them.
 ISOTROPIC, ANISOTROPIC = "isotropic", "anisotropic"

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What each change that made the shaders faster gains: today's shader against itself without it.
+
+`make gains` writes docs/benchmarks/gains.md. A change is undone by a replacement in the source, or
+by a parameter.
+"""
+
+import statistics
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from addon.nodes.group import material_group, new_material, script_node
+from addon.nodes.script import compile_source
+from scenes import pictures, variants
+from tools.figures.cache import ROOT, write
+from tools.figures.markdown import table, wrap
+from tools.timing import SampleTimes, time_samples
+
+from .machine import this_machine
+from .shaders import replaced_source
+
+FILE = ROOT / "docs" / "benchmarks" / "gains.md"
+ROUNDS = 5
+SAMPLES = 16
+PERCENTAGE = 50  # of the showcase's width and height
+
+
+@dataclass(frozen=True)
+class Change:
+    """One change, and how to undo it.
+
+    what    -- in words
+    stage   -- "metal", "glass 0.5" or "glass 0.7" (its roughness)
+    quality -- which it is measured at
+    patches -- (text of today's shader, text without the change)
+    values  -- (parameter's identifier, value) without the change
+    """
+
+    what: str
+    stage: str
+    quality: str
+    patches: tuple[tuple[str, str], ...] = ()
+    values: tuple[tuple[str, float], ...] = ()
+
+
+_ANY_FRAME = "  if (surface.isotropic)\n    return any_frame(z);\n"
+_ASKED = "  if (!is_left_alone(z, view, Ng))\n    z = corrected"
+_UNSEEN = "    if (!is_seen())\n      return unseen_conductor(frame, surface, facet, further);\n"
+_STRETCHED = "vector w = arrival.stretched;"
+_ONE_WALK = 'int one_walk = fitted || !raytype("camera");'
+
+CHANGES = (
+    Change("metal that is not seen has two closures instead of three", "metal", "Fitted",
+           ((_UNSEEN, ""),)),
+    Change("isotropic surfaces take any tangent", "metal", "Fitted", ((_ANY_FRAME, ""),)),
+    Change("curves are asked for only where a normal has to be bent", "metal", "Fitted",
+           ((_ASKED, "  z = corrected"),)),
+    Change("no further bounces where less than the tolerance is missing", "metal", "Fitted",
+           values=(("Tolerance", 0.0),)),
+    Change("no walk where less than the tolerance is missing, and walks end there", "metal", "Walk",
+           values=(("Tolerance", 0.0),)),
+    Change("the stretched view is computed once a vertex", "metal", "Walk",
+           ((_STRETCHED, "vector w = normalize(stretch(surface, arrival.v));"),)),
+    Change("glass that the camera does not see takes one walk", "glass 0.5", "Fitted",
+           ((_ONE_WALK, "int one_walk = 0;"), ("if (fitted && is_seen())", "if (fitted)"))),
+    Change("glass up to alpha 0.3 has Cycles' refraction and no facets", "glass 0.5", "Fitted",
+           (("#define WIDEST_WHOLE_GGX 0.3", "#define WIDEST_WHOLE_GGX 0"),)),
+    Change("rougher glass has 5 facets instead of 10", "glass 0.7", "Fitted",
+           (("#define FITTED_FACETS 5", "#define FITTED_FACETS 10"),)),
+    Change("glass that the camera does not see takes one walk", "glass 0.5", "Walk",
+           ((_ONE_WALK, "int one_walk = 0;"),)),
+)  # fmt: skip
+
+
+def kind_of(stage: str) -> str:
+    """The material that a stage is made of."""
+    return "CONDUCTOR" if stage == "metal" else "DIELECTRIC"
+
+
+def opened(stage: str) -> list[variants.Material]:
+    """Open the showcase, all its metals GGX, or all glass of a roughness."""
+    pictures.open_scene("showcase")
+    bpy.context.scene.render.resolution_percentage = PERCENTAGE
+    metals = variants.find_materials()
+    if stage == "metal":
+        for metal in metals:
+            metal.set("Distribution", "GGX")
+        return metals
+    ours = [metal.material for metal in metals]
+    glass = new_material("DIELECTRIC", "Glass", Roughness=float(stage.split()[1]))
+    for thing in bpy.context.scene.objects:
+        for slot in thing.material_slots:
+            if slot.material in ours:
+                slot.material = glass
+    return variants.find_materials()
+
+
+def measure(stage: str) -> dict[Change, SampleTimes]:
+    """Time all changes of a stage, those of each quality in one run, each beside "with"."""
+    changes = [change for change in CHANGES if change.stage == stage]
+    materials = opened(stage)
+    script = script_node(material_group(kind_of(stage)))
+    bytecodes = {
+        change: compile_source(replaced_source(kind_of(stage), change.patches))
+        for change in changes
+    }
+    today = script.bytecode, script.bytecode_hash
+
+    def switch(quality: str, change: Change | None) -> None:
+        script.bytecode, script.bytecode_hash = today
+        if change and change.patches:
+            # Cycles keeps shaders by their hash.
+            script.bytecode, script.bytecode_hash = bytecodes[change], f"{hash(change)}"
+        for material in materials:
+            material.set("Tolerance", material.kind.by_identifier["Tolerance"].default)
+            for identifier, value in change.values if change else ():
+                material.set(identifier, value)
+        variants.use_quality(materials, quality)
+
+    found = {}
+    for quality in dict.fromkeys(change.quality for change in changes):
+        some = [change for change in changes if change.quality == quality]
+        switches = {"with": lambda quality=quality: switch(quality, None)}
+        for change in some:
+            switches[change.what] = lambda quality=quality, change=change: switch(quality, change)
+        times = time_samples(bpy.context.scene, switches, samples=SAMPLES, rounds=ROUNDS)
+        found |= dict.fromkeys(some, times)
+    return found
+
+
+def page(found: dict[Change, SampleTimes], machine: str) -> str:
+    """The page: a row a change."""
+    rows = []
+    for change, times in found.items():
+        ratios = times.ratios(change.what, "with")
+        middle = statistics.median(ratios)
+        told = min(ratios) > 1.0 or max(ratios) < 1.0
+        gained = f"{1.0 - 1.0 / middle:.0%}" if told else "not told apart"
+        spread = f"{middle:.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
+        rows.append((change.what, change.stage, change.quality, spread, gained))
+    header = ("change", "showcase of", "Quality", "time without it over with it", "gain")
+    return wrap(f"""# What each change gained
+
+Measured on {machine} by `make gains`, which times today's shader against
+itself without the change: processor time of a sample, median and range of {ROUNDS} rounds in which
+both take turns. A gain is told where all rounds agree that there is one. What stratified walks gain
+in error is on [the page of errors](README.md): One walk there is not stratified.
+
+{table(header, rows)}""")
+
+
+def main() -> int:
+    """Measure and write the page."""
+    found: dict[Change, SampleTimes] = {}
+    for stage in dict.fromkeys(change.stage for change in CHANGES):
+        print(f"Timing the showcase of {stage} ...", file=sys.stderr, flush=True)
+        found |= measure(stage)
+    Path(FILE).parent.mkdir(parents=True, exist_ok=True)
+    write(FILE, page(found, str(this_machine())))
+    print(f"Wrote {FILE.name}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
