@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import bpy
 
+from .core.analysis.picture_error import DEFAULT_TOLERANCE
 from .core.kinds import KINDS
-from .core.picture_error import DEFAULT_TOLERANCE
 
 # The extension's package, under which Blender keeps its preferences; in tests it is "addon".
 _PACKAGE = __package__

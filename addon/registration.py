@@ -9,7 +9,7 @@ from collections.abc import Callable
 import bpy
 
 from . import command, preferences
-from .ops import (
+from .operators import (
     analyse,
     check,
     choices,

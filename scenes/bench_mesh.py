@@ -7,7 +7,7 @@ A sheet of rough metal, displaced into waves upon waves, under a large lamp and 
 import bpy
 import numpy as np
 
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 
 from . import common
 

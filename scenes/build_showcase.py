@@ -9,7 +9,7 @@ import math
 
 import bpy
 
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 
 from . import common, shapes
 

@@ -18,7 +18,7 @@ of the macrosurface and nothing else. Materials lose no light; tests set other v
 import bpy
 
 from addon.core.kinds import kind_named
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 
 from . import common
 

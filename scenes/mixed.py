@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 
 from . import common, fixtures
 

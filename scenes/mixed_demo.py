@@ -17,12 +17,17 @@ from tempfile import TemporaryDirectory
 import bpy
 import numpy as np
 
-from addon.core.analysis import Choice, Surface, predicted_cost, predicted_error
-from addon.core.picture_error import DEFAULT_TOLERANCE, percent, picture_error
-from addon.core.proposal import time_of
-from addon.nodes.analyse import Report, analyse
-from addon.nodes.inspect import apply_choice, found_nodes, read_surface
-from addon.nodes.share import shown_materials
+from addon.analysis.analyse import Report, analyse
+from addon.analysis.surfaces import apply_choice, found_nodes, read_surface
+from addon.core.analysis.picture_error import DEFAULT_TOLERANCE, percent, picture_error
+from addon.core.analysis.prediction import (
+    Choice,
+    Surface,
+    predicted_cost,
+    predicted_error,
+)
+from addon.core.analysis.proposal import time_of
+from addon.scene.share import shown_materials
 from tools.timing import SampleTimes, time_samples
 
 from . import comparison, mixed, render

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import bpy
 
 from addon.core.kinds import Kind
-from addon.nodes.group import has_bytecode
-from addon.nodes.variants import Placed, is_ours, placed_in
+from addon.material.graph import node_kind
+from addon.material.group import has_bytecode
+from addon.material.variants import Placed, placed_in
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def find_materials() -> list[Material]:
     for thing in bpy.context.scene.objects:
         for slot in thing.material_slots:
             tree = slot.material.node_tree if slot.material else None
-            if tree and any(is_ours(node) for node in tree.nodes):
+            if tree and any(node_kind(node) for node in tree.nodes):
                 name = slot.material.name
                 found[name] = Material(name, thing.pass_index, slot.material)
     if not found:

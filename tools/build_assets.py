@@ -12,7 +12,8 @@ import uuid
 from pathlib import Path
 
 from addon.core.kinds import KINDS
-from addon.core.presets import Preset, presets, problems
+from addon.core.presets.catalogue import presets, problems
+from addon.core.presets.files import Preset
 
 from .repack_blend import repack
 
@@ -88,7 +89,7 @@ def _stamp(folder: Path) -> Path:
 
 def _material(preset: Preset) -> object:
     """Return the preset as a material that is marked as an asset."""
-    from addon.nodes.apply import preset_material
+    from addon.presets.apply import preset_material
 
     material = preset_material(preset)
     material.asset_mark()
@@ -107,7 +108,7 @@ def _set_preview(material: object, preset: Preset) -> None:
     import bpy
     import numpy as np
 
-    from addon.preset_icons import picture_path
+    from addon.presets.icons import picture_path
 
     path = picture_path(preset.identifier)
     if not path.is_file():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures what every step of Quality leaves out, is off and costs, and writes
-addon/core/step_errors.toml (about 20 minutes on two cores)."""
+addon/core/analysis/step_errors.toml (about 20 minutes on two cores)."""
 
 import argparse
 import os
@@ -11,7 +11,7 @@ from pathlib import Path
 
 import bpy
 
-from addon.core.step_errors import FILE
+from addon.core.analysis.step_errors import FILE
 from tools.steps import bounces, costs, pictures
 
 PARTS = ("left_out", "lost", "off", "costs")

@@ -15,9 +15,10 @@ from pathlib import Path
 import bpy
 from tqdm import tqdm
 
-from addon import preset_icons
-from addon.core.presets import Preset, presets, problems
-from addon.nodes.apply import NEW_VALUES, preset_material
+from addon.core.presets.catalogue import presets, problems
+from addon.core.presets.files import Preset
+from addon.presets import icons as preset_icons
+from addon.presets.apply import NEW_VALUES, preset_material
 from scenes.render import messages_to
 
 from . import preview_scene

@@ -5,9 +5,9 @@ import argparse
 
 import bpy
 
-from ..core.picture_error import DEFAULT_TOLERANCE, percent
-from ..core.proposal import Option
-from ..nodes.analyse import Report, analyse
+from ..analysis.analyse import Report, analyse
+from ..core.analysis.picture_error import DEFAULT_TOLERANCE, percent
+from ..core.analysis.proposal import Option
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
 

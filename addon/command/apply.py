@@ -5,7 +5,7 @@ import argparse
 
 import bpy
 
-from ..nodes.analyse import apply
+from ..analysis.analyse import apply
 from .analyse import add_tolerance_argument, analysed, table
 from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file, saved
 from .output import emit

@@ -8,8 +8,8 @@ from dataclasses import asdict
 import bpy
 
 from ..core.finding import by_level, counts, worst
-from ..nodes.farm.check import farm_findings
-from ..nodes.farm.proof import TIME_LIMIT, ProofError, prove
+from ..farm.check import farm_findings
+from ..farm.proof import TIME_LIMIT, ProofError, prove
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
 

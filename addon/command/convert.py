@@ -5,17 +5,9 @@ import argparse
 from dataclasses import asdict
 from functools import partial
 
-from ..nodes.convert import (
-    TO_NATIVE,
-    TO_OURS,
-    Conversion,
-    needed_groups,
-    plan,
-    to_microbounce,
-    to_native,
-)
-from ..nodes.find import surface_materials
-from ..nodes.group import GROUP_ERRORS
+from ..convert import TO_NATIVE, TO_OURS, Conversion, needed_groups, plan, to_microbounce, to_native
+from ..material.graph import surface_materials
+from ..material.group import GROUP_ERRORS
 from .files import (
     add_dry_run_argument,
     add_file_argument,

@@ -17,7 +17,7 @@ from ..core.cost.plan import (
     parse_steps,
 )
 from ..core.run import Progress
-from ..nodes.cost.run import OUTPUT, CostError, measure
+from ..cost.run import OUTPUT, CostError, measure
 from .files import add_file_argument, open_file
 from .output import CommandError, emit
 

@@ -5,7 +5,7 @@ from difflib import get_close_matches
 
 import bpy
 
-from ..core.presets import Finish, Preset
+from ..core.presets.files import Finish, Preset
 from .output import CommandError
 
 

@@ -4,10 +4,11 @@
 import argparse
 import sys
 
-from ..core.presets import finishes, presets
-from ..nodes.apply import ApplyError, apply_preset
-from ..nodes.group import GROUP_ERRORS
-from ..nodes.user_presets import load_user_presets
+from ..core.presets.catalogue import finishes, presets
+from ..material.group import GROUP_ERRORS
+from ..material.node import MaterialError
+from ..presets.apply import apply_preset
+from ..presets.user import load_user_presets
 from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file, saved
 from .names import named_item, named_material
 from .output import CommandError, emit
@@ -46,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     material = named_material(arguments.material)
     try:
         left = apply_preset(material, chosen, finish)
-    except (ApplyError, *GROUP_ERRORS) as error:
+    except (MaterialError, *GROUP_ERRORS) as error:
         raise CommandError(str(error)) from error
     target = save_file(arguments)
     data = {

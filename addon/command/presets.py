@@ -4,9 +4,10 @@
 import argparse
 
 from ..core.kinds import KINDS
-from ..core.presets import Finish, Preset, finishes, presets, problems
-from ..core.user_presets import is_users
-from ..nodes.user_presets import load_user_presets
+from ..core.presets.catalogue import finishes, presets, problems
+from ..core.presets.files import Finish, Preset
+from ..core.presets.user_files import is_users
+from ..presets.user import load_user_presets
 from .output import CommandError, emit
 
 NAME = "presets"

@@ -4,8 +4,8 @@
 import argparse
 from dataclasses import asdict
 
-from ..nodes.group import GROUP_ERRORS
-from ..nodes.update import Update, old_groups, update_materials
+from ..material.group import GROUP_ERRORS
+from ..material.update import Update, old_groups, update_materials
 from .files import (
     add_dry_run_argument,
     add_file_argument,

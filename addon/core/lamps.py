@@ -26,7 +26,7 @@ class Lamp:
     multiple_importance: bool = True
 
     @property
-    def obstacle(self) -> str:
+    def why_missed(self) -> str:
         """Return why no path can hit it, "" where one can."""
         if self.size <= 0.0:
             return f"{_SIZE[self.kind]} 0"
@@ -40,10 +40,10 @@ def exact_warning(lamps: Iterable[Lamp]) -> str:
 
     Returns "" where it finds all of them.
     """
-    missed = [lamp for lamp in lamps if lamp.obstacle]
+    missed = [lamp for lamp in lamps if lamp.why_missed]
     if not missed:
         return ""
-    names = [f"'{lamp.name}' ({lamp.obstacle})" for lamp in missed[:_MOST_NAMES]]
+    names = [f"'{lamp.name}' ({lamp.why_missed})" for lamp in missed[:_MOST_NAMES]]
     if len(missed) > _MOST_NAMES:
         names.append(f"{len(missed) - _MOST_NAMES} more")
     remedies = ["set Quality to Walk"]

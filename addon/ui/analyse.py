@@ -5,18 +5,14 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.picture_error import percent
-from ..ops.analyse import (
-    MICROBOUNCE_OT_analyse,
-    MICROBOUNCE_OT_apply_analysis,
-    last_report,
-)
+from ..core.analysis.picture_error import percent
+from ..operators.analyse import MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis, last_report
 from ..preferences import stored_preferences
 from ..text import label
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_lines
 
 if TYPE_CHECKING:
-    from ..nodes.analyse import Report, Row
+    from ..analysis.analyse import Report, Row
 
 # As many rows as a panel shows; what changes comes first.
 _MOST_ROWS = 24

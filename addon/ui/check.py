@@ -3,8 +3,8 @@
 
 import bpy
 
-from ..nodes.before_render import last_findings
-from ..ops.check import MICROBOUNCE_OT_check_render
+from ..operators.check import MICROBOUNCE_OT_check_render
+from ..scene.before_render import last_findings
 from .findings import draw_findings
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
 

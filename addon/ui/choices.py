@@ -8,9 +8,10 @@ import bpy
 
 from ..core.kinds import KINDS
 from ..core.parameter import Parameter
-from ..nodes.apply import material_node, node_kind
-from ..ops.choices import MICROBOUNCE_OT_set_choice
-from ..ops.presets import shown_material
+from ..material.graph import node_kind
+from ..material.node import material_node
+from ..operators.choices import MICROBOUNCE_OT_set_choice
+from ..operators.presets import shown_material
 from ..text import label
 
 _CHOICES = {

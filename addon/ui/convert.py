@@ -3,8 +3,8 @@
 
 import bpy
 
-from ..ops.convert import MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native
-from ..ops.update import MICROBOUNCE_OT_update_materials
+from ..operators.convert import MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native
+from ..operators.update import MICROBOUNCE_OT_update_materials
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
 
 

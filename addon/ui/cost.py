@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 
 from ..core.run import Progress
-from ..ops.cost import (
+from ..operators.cost import (
     CostOptions,
     MICROBOUNCE_OT_clear_cost_cache,
     MICROBOUNCE_OT_measure_cost,
@@ -117,7 +117,7 @@ def _cells(row: dict[str, object]) -> tuple[str, ...]:
 
 
 def _plot_name() -> str:
-    from ..nodes.cost.run import IMAGE
+    from ..cost.run import IMAGE
 
     return IMAGE
 

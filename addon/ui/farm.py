@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..ops.farm import MICROBOUNCE_OT_check_farm, last_findings
+from ..operators.farm import MICROBOUNCE_OT_check_farm, last_findings
 from .findings import draw_findings
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
 

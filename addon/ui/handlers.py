@@ -6,7 +6,7 @@ import sys
 import bpy
 from bpy.app.handlers import persistent
 
-from ..nodes import before_render
+from ..scene import before_render
 
 # What reading a file's data raises where they are not as expected.
 _ERRORS = (

@@ -4,7 +4,7 @@
 import bpy
 
 from ..core.kinds import KINDS
-from ..ops.node import MICROBOUNCE_OT_add_node
+from ..operators.node import MICROBOUNCE_OT_add_node
 
 
 class MICROBOUNCE_MT_add(bpy.types.Menu):

@@ -6,10 +6,10 @@ import textwrap
 import bpy
 
 from ..core.kinds import KINDS
-from ..ops.exact import missed_lights
-from ..ops.material import MICROBOUNCE_OT_add_material
-from ..ops.node import MICROBOUNCE_OT_add_node
-from ..ops.osl import MICROBOUNCE_OT_enable_osl, osl_status
+from ..operators.exact import missed_lights
+from ..operators.material import MICROBOUNCE_OT_add_material
+from ..operators.node import MICROBOUNCE_OT_add_node
+from ..operators.osl import MICROBOUNCE_OT_enable_osl, osl_status
 from ..text import label, message
 from .choices import draw_choices
 

@@ -3,29 +3,32 @@
 
 import bpy
 
-from .. import preset_icons
 from ..core.kinds import KINDS
-from ..core.presets import PresetError, finishes, preset, presets, problems
-from ..nodes.apply import PRESET_KEY, material_node, node_kind
-from ..nodes.user_presets import user_presets
-from ..ops.kinds import KIND_ITEMS
-from ..ops.library import (
+from ..core.presets.catalogue import finishes, preset, presets, problems
+from ..core.presets.files import PresetError
+from ..material.graph import node_kind
+from ..material.node import material_node
+from ..operators.kinds import KIND_ITEMS
+from ..operators.library import (
     MICROBOUNCE_OT_register_library,
     MICROBOUNCE_OT_unregister_library,
     registered_libraries,
 )
-from ..ops.presets import (
+from ..operators.presets import (
     MICROBOUNCE_OT_apply_finish,
     MICROBOUNCE_OT_apply_preset,
     MICROBOUNCE_OT_search_preset,
     shown_material,
 )
-from ..ops.user_presets import (
+from ..operators.user_presets import (
     MICROBOUNCE_OT_apply_user_preset,
     MICROBOUNCE_OT_remove_user_preset,
     MICROBOUNCE_OT_save_preset,
     shown_name,
 )
+from ..presets import icons as preset_icons
+from ..presets.apply import PRESET_KEY
+from ..presets.user import user_presets
 from .panels import draw_lines, draw_text
 
 # Choices of the window manager, so that no file stores them: which pictures there are, and whether

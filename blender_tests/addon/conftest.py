@@ -68,7 +68,7 @@ def osl_scene(registered):
 @pytest.fixture
 def metal(empty_file):
     """A metal, its node tree and our node in it."""
-    from addon.nodes.group import new_material
+    from addon.material.node import new_material
 
     material = new_material("CONDUCTOR", "Metal")
     tree = material.node_tree
@@ -78,13 +78,13 @@ def metal(empty_file):
 @pytest.fixture
 def compiled_once(monkeypatch):
     """Compile each shader once for all tests that use this: none of them is about compiling."""
-    from addon.nodes import group
+    from addon.material import group
 
     monkeypatch.setattr(group, "compile_source", _compiled)
 
 
 @cache
 def _compiled(source: str) -> str:
-    from addon.nodes.script import compile_source
+    from addon.material.script import compile_source
 
     return compile_source(source)

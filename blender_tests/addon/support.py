@@ -145,7 +145,7 @@ def sphere() -> bpy.types.Object:
 
 def give_material(kind: str = "CONDUCTOR", **values: object) -> bpy.types.Material:
     """Give the sphere a new material of ours with these parameters; return it."""
-    from addon.nodes.group import new_material
+    from addon.material.node import new_material
 
     material = new_material(kind, "Ours", **values)
     sphere().data.materials.append(material)

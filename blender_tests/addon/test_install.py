@@ -246,7 +246,7 @@ def test_installed_again_and_upgraded_in_folders_with_any_name(archive, tmp_path
     for file, old, new in (
         ("blender_manifest.toml", f'version = "{VERSION}"', 'version = "99.0.0"'),
         ("core/__init__.py", f'VERSION = "{VERSION}"', 'VERSION = "99.0.0"'),
-        ("ops/material.py", "Add Microbounce Material", "Add Newer Material"),
+        ("operators/material.py", "Add Microbounce Material", "Add Newer Material"),
     ):
         text = (newer / file).read_text(encoding="utf-8")
         assert old in text

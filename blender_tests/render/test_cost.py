@@ -7,7 +7,7 @@ import statistics
 import bpy
 import pytest
 
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 from scenes import pictures, variants
 from tools.timing import SampleTimes, time_samples
 

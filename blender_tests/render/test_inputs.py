@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from addon.core.parameters import CONDUCTOR
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 from scenes import common, pictures
 
 pytestmark = pytest.mark.once

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from addon.core.kinds import KINDS
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 from scenes import common, pictures
 
 SIZE = 32

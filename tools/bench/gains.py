@@ -12,8 +12,9 @@ from pathlib import Path
 
 import bpy
 
-from addon.nodes.group import material_group, new_material, script_node
-from addon.nodes.script import compile_source
+from addon.material.group import material_group, script_node
+from addon.material.node import new_material
+from addon.material.script import compile_source
 from scenes import pictures, variants
 from tools.figures.cache import ROOT, write
 from tools.figures.markdown import table, wrap

@@ -6,10 +6,10 @@ from functools import partial
 
 import bpy
 
+from addon.core.analysis.step_errors import STEPS
 from addon.core.kinds import KINDS
-from addon.core.step_errors import STEPS
-from addon.nodes.group import new_material
-from addon.nodes.share import picture_shares
+from addon.material.node import new_material
+from addon.scene.share import picture_shares
 from scenes import mixed
 from tools.timing import time_samples
 

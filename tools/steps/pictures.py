@@ -4,7 +4,7 @@
 from collections import defaultdict
 from collections.abc import Callable
 
-from addon.core.step_errors import STEPS
+from addon.core.analysis.step_errors import STEPS
 from scenes import pictures
 from scenes.pictures import WHITE, Widths
 from scenes.references import CASES, Case
