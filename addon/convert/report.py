@@ -57,4 +57,4 @@ class Conversion:
     @property
     def lines(self) -> list[str]:
         """A line for each entry."""
-        return [f"{self.material}: {entry.text}" for entry in self.entries]
+        return [f"{self.material}: {e.text}" if e.node else e.text for e in self.entries]

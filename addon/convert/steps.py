@@ -42,7 +42,7 @@ def why_not_convertible(material: bpy.types.Material) -> str:
     """Return why nothing in `material` can be converted, with the remedy; "" if it can."""
     reason = why_not_editable(material)
     if not reason and surface_tree(material) is None:
-        return "It has no nodes: switch Use Nodes on"
+        return f"The material '{material.name}' has no nodes: switch Use Nodes on"
     return reason
 
 

@@ -59,5 +59,7 @@ def _by_group(uses: list[Use]) -> dict[bpy.types.NodeTree, list[Use]]:
     users: dict[bpy.types.NodeTree, list[Use]] = {}
     for use in uses:
         for group in use.groups:
+            if group.is_missing:  # library_findings() names its library
+                continue
             users.setdefault(group, []).append(use)
     return users

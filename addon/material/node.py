@@ -18,11 +18,11 @@ class MaterialError(ValueError):
 def why_not_editable(material: bpy.types.Material) -> str:
     """Return why the nodes of `material` cannot be changed, with the remedy; "" if they can."""
     if not material.is_editable or material.library is not None:
-        return "It is linked from a library: make it local"
+        return f"The material '{material.name}' is linked from a library: make it local"
     if material.override_library is not None:
-        return "It is a library override, whose nodes cannot change: make it local"
+        return f"The material '{material.name}' is a library override: make it local"
     if material.is_grease_pencil:
-        return "It is a grease pencil material, which has no surface: choose another"
+        return f"'{material.name}' is a grease pencil material, which has no surface: use another"
     return ""
 
 
@@ -66,7 +66,7 @@ def add_surface_node(
     """
     reason = why_not_editable(material)
     if reason:
-        raise MaterialError(f"'{material.name}': {reason}")
+        raise MaterialError(reason)
     group = material_group(kind)
     if bpy.app.version < (5, 0, 0):  # later nodes are always on, and setting it is deprecated
         keep = keep and material.node_tree is not None  # Blender fills a new tree with its own

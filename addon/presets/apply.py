@@ -41,7 +41,7 @@ def apply_preset(
     _check_finish(preset, finish)
     reason = why_not_editable(material)
     if reason:
-        raise MaterialError(f"'{material.name}': {reason}")
+        raise MaterialError(reason)
     node = material_node(material, preset.kind)
     if node is None:
         node = add_surface_node(material, preset.kind, _start(preset.kind, quality))
@@ -70,7 +70,7 @@ def apply_finish(material: bpy.types.Material, finish: Finish) -> list[str]:
     """
     reason = why_not_editable(material)
     if reason:
-        raise MaterialError(f"'{material.name}': {reason}")
+        raise MaterialError(reason)
     node = material_node(material)
     if node is None or node_kind(node) not in finish.kinds:
         raise MaterialError(

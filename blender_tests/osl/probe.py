@@ -13,7 +13,7 @@ import numpy as np
 import OpenImageIO as oiio
 
 from addon.core.shader_source import shader_directory
-from addon.nodes.script import compile_source
+from addon.material.script import compile_source
 from scenes import common
 
 COLUMNS = 128

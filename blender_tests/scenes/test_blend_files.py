@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from addon.core.kinds import KINDS
-from addon.nodes.group import has_bytecode, material_group
+from addon.material.group import has_bytecode, material_group
 from osl.oracle import slab, sphere
 from scenes import fixtures, render, variants
 

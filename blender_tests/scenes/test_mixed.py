@@ -7,10 +7,10 @@ import bpy
 import numpy as np
 import pytest
 
-from addon.core.analysis import Choice
-from addon.nodes.analyse import analyse, apply
-from addon.nodes.inspect import found_nodes, read_choice
-from addon.nodes.share import shown_materials
+from addon.analysis.analyse import analyse, apply
+from addon.analysis.surfaces import found_nodes, read_choice
+from addon.core.analysis.prediction import Choice
+from addon.scene.share import shown_materials
 from scenes import mixed, mixed_demo
 
 COUNT, SIZE = 6, (48, 32)

@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Euler
 
 from addon.core.kinds import kind_named
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 from scenes import common
 
 from .linked import group_node, linked_material

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from addon.core.kinds import kind_named
-from addon.nodes.group import new_material
+from addon.material.node import new_material
 
 
 def linked_material(

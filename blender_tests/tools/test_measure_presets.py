@@ -241,7 +241,7 @@ def test_the_command_writes_and_checks(run, tmp_path, capsys):
 
 
 def test_what_the_command_writes_is_read_by_the_extension(run, tmp_path, monkeypatch):
-    from addon.core import presets
+    from addon.core.presets import catalogue as presets
 
     assert run() == 0
     monkeypatch.setattr(presets, "FOLDER", tmp_path / "presets")

@@ -3,7 +3,7 @@
 
 import pytest
 
-from addon.core import step_errors
+from addon.core.analysis import step_errors
 from scenes.pictures import Widths
 from scenes.references import Case
 from tools.steps import costs, pictures

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 import pytest
 
-from addon import preset_icons
-from addon.core import presets
+from addon.core.presets import catalogue as presets
+from addon.presets import icons as preset_icons
 from tools import preview_scene, render_previews
 
 

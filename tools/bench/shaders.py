@@ -7,8 +7,8 @@ import bpy
 
 from addon.core.kinds import kind_named
 from addon.core.shader_source import inlined_source
-from addon.nodes.group import STAMP_KEY, material_group, script_node
-from addon.nodes.script import compile_source
+from addon.material.group import STAMP_KEY, material_group, script_node
+from addon.material.script import compile_source
 
 # By name, what is replaced by what.
 PATCHES = {

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from addon.nodes.group import material_group
+from addon.material.group import material_group
 from scenes import bench_mesh, pictures, variants
 
 from .plan import EXACT, NATIVE, Scene, Variant

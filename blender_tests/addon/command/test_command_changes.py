@@ -204,7 +204,7 @@ def test_grease_pencil_materials_are_left_out_unless_named(command, file, regist
     arguments = ("convert", "--to", "microbounce", "--material", "Pencil", "--file", file)
     code, out, _ = command(*arguments)
     assert code == 1
-    assert "Pencil: It is a grease pencil material" in out
+    assert "'Pencil' is a grease pencil material" in out
 
 
 def test_a_dry_run_that_shall_save_is_refused(command, file):

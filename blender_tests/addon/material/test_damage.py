@@ -9,6 +9,7 @@ import pytest
 from addon.core import VERSION
 from addon.core.kinds import KINDS
 from addon.core.shader_source import inlined_source
+from addon.material.node import new_material
 from blender_tests.addon.support import render, small_scene
 
 
@@ -32,7 +33,7 @@ def group_node(material):
 @pytest.mark.parametrize("lost", ["text", "bytecode", "both"])
 def test_deleted_text_or_bytecode_is_put_back_in_place(group_module, kind, empty_file, lost):
     data = empty_file.data
-    material = group_module.new_material(kind, "Metal")
+    material = new_material(kind, "Metal")
     group = group_node(material).node_tree
     links = len(group.links)
     bytecode = script_of(group).bytecode
@@ -51,8 +52,6 @@ def test_deleted_text_or_bytecode_is_put_back_in_place(group_module, kind, empty
 
 def test_deleted_text_changes_no_pixel(kind, tmp_path):
     import bpy
-
-    from addon.material.node import new_material
 
     _, sphere = small_scene(osl=True)
     sphere.data.materials.append(new_material(kind, "New", Roughness=0.8))
@@ -76,7 +75,7 @@ def test_group_that_a_user_cut_at_is_left_and_a_whole_one_made(group_module, kin
     old = group_module.material_group(kind)
     cut(old)
     sockets, nodes = len(old.interface.items_tree), len(old.nodes)
-    material = group_module.new_material(kind, "Metal", Kernel=0.5)
+    material = new_material(kind, "Metal", Kernel=0.5)
     assert group_node(material).node_tree != old
     assert group_node(material).inputs["Kernel"].default_value == pytest.approx(0.5)
     assert (len(old.interface.items_tree), len(old.nodes)) == (sockets, nodes)
@@ -86,7 +85,7 @@ def libraries(bpy, group_module, kind, tmp_path, names):
     """Write a file with one of our materials for each name; leave an empty file open."""
     for name in names:
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        material = group_module.new_material(kind, name)
+        material = new_material(kind, name)
         bpy.data.libraries.write(str(tmp_path / f"{name}.blend"), {material})
     bpy.ops.wm.read_factory_settings(use_empty=True)
 
@@ -107,7 +106,7 @@ def test_materials_appended_from_two_files_keep_working_copies(
     for group in groups:
         assert group_module.has_bytecode(group)
         assert script_of(group).script is not None
-    third = group_node(group_module.new_material(kind, "C")).node_tree
+    third = group_node(new_material(kind, "C")).node_tree
     assert third in groups
     assert len(bpy.data.node_groups) == 2
 
@@ -117,7 +116,7 @@ def test_linked_group_is_not_reused(group_module, kind, empty_file, tmp_path):
     libraries(bpy, group_module, kind, tmp_path, "A")
     linked = group_node(load(bpy, tmp_path, "A", link=True)).node_tree
     assert linked.library is not None
-    own = group_node(group_module.new_material(kind, "Mine")).node_tree
+    own = group_node(new_material(kind, "Mine")).node_tree
     assert own.library is None, "the file would not render without the library"
     assert own != linked
     assert group_module.material_group(kind) == own
@@ -152,7 +151,7 @@ def test_a_name_that_is_no_text_is_refused_before_anything_is_made(
     group_module, kind, empty_file, name
 ):
     with pytest.raises(TypeError, match=r"The material's name is .*: give a text"):
-        group_module.new_material(kind, name)
+        new_material(kind, name)
     assert not empty_file.data.node_groups
     assert not empty_file.data.texts
 

@@ -12,6 +12,7 @@ from addon.core import VERSION
 from addon.core.kinds import KINDS
 from addon.core.oso import oso_parameters
 from addon.core.shader_source import ShaderSourceError, inlined_source
+from addon.material.node import new_material
 from blender_tests.addon.support import ROOT
 
 # What GROUP_REVISION stands for. Where its test fails, raise it in addon/material/group.py and replace
@@ -180,7 +181,7 @@ def test_group_of_another_version_is_left_alone(group_module, kind, empty_file):
 def test_material_takes_values(group_module, kind):
     color = KINDS[kind].parameters[0]
     values = {color.identifier: (1, 0.8, 0.3), "Roughness": 0.8}
-    material = group_module.new_material(kind, "New", Quality="Exact", BounceOnly=5, **values)
+    material = new_material(kind, "New", Quality="Exact", BounceOnly=5, **values)
     (node,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeGroup"]
     assert list(node.inputs[color.label].default_value) == pytest.approx([1, 0.8, 0.3, 1])
     assert node.inputs["Roughness"].default_value == pytest.approx(0.8)
@@ -196,7 +197,7 @@ def test_material_takes_values(group_module, kind):
 def test_material_with_bad_values_is_not_made(group_module, kind, empty_file, values, error):
     before = contents(empty_file)
     with pytest.raises(error, match=next(iter(values))):
-        group_module.new_material(kind, "Bad", **values)
+        new_material(kind, "Bad", **values)
     assert contents(empty_file) == before
 
 
@@ -219,7 +220,7 @@ def test_a_failure_leaves_the_file_as_it_was(
     monkeypatch.setattr(group_module, "inlined_source", damaged)
     before = contents(empty_file)
     with pytest.raises((RuntimeError, ValueError)) as caught:
-        group_module.new_material(kind, "Bad")
+        new_material(kind, "Bad")
     assert type(caught.value).__name__ == error
     assert words in str(caught.value)
     assert contents(empty_file) == before
@@ -250,7 +251,7 @@ def test_nothing_is_written_beside_the_extension(group_module, kind):
         return {(p, p.stat().st_mtime_ns) for p in found if "__pycache__" not in p.parts}
 
     before = files()
-    group_module.new_material(kind, "New")
+    new_material(kind, "New")
     assert files() == before
 
 
@@ -261,7 +262,7 @@ def test_without_a_compiler_the_group_is_made_and_completed_later(
 
     with monkeypatch.context() as patch:
         patch.setattr(script, "osl_compiler_available", lambda: False)
-        material = group_module.new_material(kind, "New")
+        material = new_material(kind, "New")
         group = group_module.material_group(kind)
         assert not group_module.has_bytecode(group)
     completed = group_module.material_group(kind)

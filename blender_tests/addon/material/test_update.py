@@ -224,8 +224,9 @@ def test_a_file_of_another_version_is_updated_after_loading(tmp_path):
     path = tmp_path / "old.blend"
     script = f"""
 from addon.material import group
+from addon.material.node import new_material
 group.VERSION = "0.0.1"
-material = group.new_material("DIELECTRIC", "Old", Roughness=0.25)
+material = new_material("DIELECTRIC", "Old", Roughness=0.25)
 material.use_fake_user = True
 bpy.ops.wm.save_as_mainfile(filepath={str(path)!r})
 finish(bpy.data.node_groups[0]["microbounce_stamp"])

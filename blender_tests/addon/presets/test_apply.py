@@ -200,7 +200,7 @@ def test_finish_goes_over_the_preset_and_is_refused_for_other_kinds(registered):
 @pytest.mark.parametrize(
     ("values", "error", "words"),
     [
-        ({"Roughness": 0.1, "Sheen": 1.0}, ValueError, "has no 'Sheen': use one of"),
+        ({"Roughness": 0.1, "Sheen": 1.0}, TypeError, "has no 'Sheen': use one of"),
         ({"Roughness": 0.1, "Walks": 99}, ValueError, "it goes from 1 to 16"),
         ({"Roughness": "rough"}, TypeError, "give a number"),
         ({"Roughness": float("nan")}, ValueError, "it goes from 0 to 1"),
