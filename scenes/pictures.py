@@ -8,6 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from addon.material.update import update_materials
 from osl.oracle import exr
 from scenes import fixtures, render, variants
 
@@ -42,8 +43,9 @@ class Widths:
 
 
 def open_scene(name: str) -> variants.Material:
-    """Open scenes/`name`.blend and return its material (the first, where there are several)."""
+    """Open scenes/`name`.blend and return its first material, with today's shader."""
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{name}.blend"))
+    update_materials()
     return variants.find_materials()[0]
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures what each step of Quality costs and leaves out, for addon/core/analysis/step_errors.toml."""
+"""What each Quality costs and leaves out, for addon/core/analysis/step_errors.toml."""

@@ -15,8 +15,8 @@ from addon.core.shader_source import ShaderSourceError, inlined_source
 from addon.material.node import new_material
 from blender_tests.addon.support import ROOT
 
-# What GROUP_REVISION stands for. Where its test fails, raise it in addon/material/group.py and replace
-# the digests: files then take the new groups, and the scenes are to be built anew.
+# What GROUP_REVISION stands for. If its test fails, raise it in addon/material/group.py and replace
+# the digests. Files then take the new groups; build the scenes again with `make scenes`.
 REVISION = 4
 DIGESTS = {
     "CONDUCTOR": "1618d335a64f3973",
