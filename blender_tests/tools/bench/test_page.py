@@ -187,11 +187,7 @@ def test_a_limit_within_the_range_is_told_with_the_verdict():
     assert "| 1.08 (1.08 to 2.16 over rounds) | reached, but not in all rounds |" in text
 
 
-def test_the_readme_has_the_headline_that_was_measured():
-    """And its picture and page are there."""
+def test_the_page_of_costs_has_the_headline_that_was_measured():
     table = (command.FOLDER / "headline.md").read_text(encoding="utf-8").strip()
-    readme = (command.ROOT / "README.md").read_text(encoding="utf-8")
-    assert table in readme, "put docs/benchmarks/headline.md into README.md's What accuracy costs"
-    for name in ("headline.svg", "README.md", "gains.md"):
-        assert f"docs/benchmarks/{name}" in readme
-        assert (command.FOLDER / name).is_file()
+    page = (command.ROOT / "docs" / "cost.md").read_text(encoding="utf-8")
+    assert table in page, "put docs/benchmarks/headline.md into docs/cost.md"
