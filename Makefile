@@ -19,17 +19,20 @@ pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
 .NOTPARALLEL:
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture analysis-demo test test-all test-5.2 test-4.5 test-window window-pictures lint \
+.PHONY: help demo demo-picture materials-picture analysis-demo test test-all test-5.2 test-4.5 test-window window-pictures lint \
         format addon assets previews references figures tables scenes bench bench-check gains clean
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' Makefile
 
 demo: ## Render the showcase scene with Single, Cycles Multiscatter and Microbounce; compare
 	@$(any) -m scenes.demo
 
-demo-picture: ## The same, and renew the picture in docs/ that the README shows
+demo-picture: ## The same, and renew docs/comparison.jpg
 	@$(any) -m scenes.demo --picture docs/comparison.jpg
+
+materials-picture: ## Render the metal, glass and clay of the README (docs/materials.jpg; about three minutes)
+	@$(any) -m scenes.materials_picture
 
 analysis-demo: ## Render twenty materials all in Walk, all Fitted and as analysed; time and error
 	@$(any) -m scenes.mixed_demo
