@@ -131,7 +131,7 @@ def predicted_cost(surface: Surface, choice: Choice) -> float:
     fitted = cost(surface.kind, "Fitted", surface.alphas) if surface.fitted else walk
     if surface.walked:
         fitted = max(fitted, walk)
-    # Exact makes one walk and has about the time of Single (README, Quality).
+    # Exact makes one walk and has about the time of Single (docs/cost.md, Quality).
     return {"Single": single, "Fitted": fitted, "Walk": walk, "Exact": single}[choice.quality]
 
 
