@@ -18,7 +18,7 @@ PAGES = [
 MADE = ("build", "dist")  # what commands make is not in a clone
 FILE = re.compile(r"[\w.*-]+(/[\w.*-]+)*\.(py|h|md|osl|toml|sh|txt|blend)")
 LINK = re.compile(r"!?\[([^\]]*)\]\(([^)\s]+)\)")
-SENTENCE_END = re.compile(r'(?<=[.!?])["*)]*\s+(?=["*(`\[]*[A-Z])')
+SENTENCE_END = re.compile(r'(?<=[.!?])["*)]*\s+(?=["*(\[]*[A-Z`])')
 
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
