@@ -33,8 +33,8 @@ def test_no_walk_is_left_out_that_the_tolerance_asks_for(name: str, distribution
     ior = 1.0 if matte else material.ior
     bound = evaluate(
         "accuracy.h",
-        f"{SURFACE} Facet facet; facet.kind = {'DIFFUSE' if matte else 'DIELECTRIC'}; "
-        f"facet.ior = {ior}; result = further_energy_bound(surface, facet, wi);",
+        f"{SURFACE} Material material; material.kind = {'DIFFUSE' if matte else 'DIELECTRIC'}; "
+        f"material.ior = {ior}; result = further_energy_bound(surface, material, wi);",
         alpha=rows.alpha,
         wi=np.tile(wi, (len(WIDTHS), 1)),
     )[:, 0]

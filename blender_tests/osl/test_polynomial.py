@@ -11,12 +11,12 @@ from .probe import evaluate
 
 # Degrees whose numbers of terms do and do not come in threes; the last one reaches its limits.
 SOME = (
-    Polynomial("of four variables", 5, 4, -20.0, 20.0),
-    Polynomial("of three", 4, 3, -20.0, 20.0),
-    Polynomial("of two", 3, 2, -20.0, 20.0),
-    Polynomial("of one", 4, 1, -20.0, 20.0),
-    Polynomial("constant", 0, 4, -20.0, 20.0),
-    Polynomial("limited", 2, 4, -0.25, 0.5),
+    Polynomial("A", "of four variables", 5, 4, -20.0, 20.0),
+    Polynomial("B", "of three", 4, 3, -20.0, 20.0),
+    Polynomial("C", "of two", 3, 2, -20.0, 20.0),
+    Polynomial("D", "of one", 4, 1, -20.0, 20.0),
+    Polynomial("E", "constant", 0, 4, -20.0, 20.0),
+    Polynomial("F", "limited", 2, 4, -0.25, 0.5),
 )
 PLACES = 256
 
@@ -26,7 +26,7 @@ def test_values(tmp_path: Path) -> None:
     rng = np.random.default_rng(8)
     both = [[np.round(rng.uniform(-1.0, 1.0, len(p.exponents)), 3) for p in SOME] for _ in range(2)]
     header = tmp_path / "some.h"
-    header.write_text(function("some_values", "Of a test.", SOME, both), encoding="utf-8")
+    header.write_text(function("some_values", "// Of a test.", SOME, both), encoding="utf-8")
     place = rng.uniform(-1.0, 1.0, (PLACES, 4)).astype(np.float32)
     arguments = {f"x{i}": place[:, i] for i in range(4)}
     for distribution, coefficients in enumerate(both):

@@ -24,14 +24,15 @@ MATERIALS = [GOLD, Diffuse((0.9, 0.5, 0.1)), Dielectric(1.5), Dielectric(1 / 1.5
 NAMES = ["conductor", "diffuse", "glass", "glass from inside", "diamond"]
 
 
-def facet(material: Material) -> str:
-    """OSL statements that make a `facet` of the oracle's material."""
+def osl_material(material: Material) -> str:
+    """OSL statements that make a `material` of the oracle's."""
+    kind = "Material material; material.kind ="
     if isinstance(material, Conductor):
         rows = ("first = color(0.9, 0.5, 0.1)", "second = 1", "physical = 0")
-        return "Facet facet; facet.kind = CONDUCTOR;" + "".join(f"facet.metal.{r};" for r in rows)
+        return f"{kind} CONDUCTOR;" + "".join(f"material.metal.{r};" for r in rows)
     if isinstance(material, Diffuse):
-        return f"Facet facet; facet.kind = DIFFUSE; facet.tint = color{material.albedo};"
-    return f"Facet facet; facet.kind = DIELECTRIC; facet.tint = 1; facet.ior = {material.ior!r};"
+        return f"{kind} DIFFUSE; material.tint = color{material.albedo};"
+    return f"{kind} DIELECTRIC; material.tint = 1; material.ior = {material.ior!r};"
 
 
 def shade(
@@ -52,7 +53,7 @@ def shade_all(
     alpha = np.repeat([widths(surface) for surface in surfaces], count, axis=0)
     found = evaluate(
         includes,
-        f"{SURFACE} {STREAM} {facet(surfaces[0].material)} {statements}",
+        f"{SURFACE} {STREAM} {osl_material(surfaces[0].material)} {statements}",
         alpha=alpha,
         wi=np.tile(direction(theta, 0.6), (len(alpha), 1)),
         where=np.random.default_rng(9).uniform(-10.0, 10.0, (len(alpha), 3)),
@@ -73,7 +74,7 @@ def test_chosen_vertices_carry_the_kept_energy(theta: float) -> None:
     surfaces = [Surface(*alpha, kind, GOLD) for alpha, kind in product(ROUGH, DISTRIBUTIONS)]
     kept = (
         "Incidence arrival = incidence(surface, wi); float kept;"
-        "Vertex chosen = sample_kept_vertex(surface, facet, arrival,"
+        "Vertex chosen = sample_kept_vertex(surface, material, arrival,"
         "walker_from(surface, arrival, stream), next_numbers(stream), 8, 4, stream, kept);"
     )
     first = shade_all(surfaces, theta, kept + "result = kept * chosen.o;", count=2 * COUNT)
@@ -100,7 +101,7 @@ def test_energy_of_walks(material: Material, most: int) -> None:
         surfaces,
         theta,
         "Walker walker = walker_from(surface, incidence(surface, wi), stream);"
-        f"vector o = walk_to_exit(surface, facet, 0, {most}, 0, 0, stream, walker);"
+        f"vector o = walk_to_exit(surface, material, 0, {most}, 0, 0, stream, walker);"
         "result = (walker.below ? -1 : 1) * vector(walker.throughput);",
     )
     for surface, weights in zip(surfaces, walked, strict=True):
@@ -123,7 +124,7 @@ def test_one_bounce_alone(material: Material) -> None:
             surface,
             0.9,
             "Walker walker = walker_from(surface, incidence(surface, wi), stream);"
-            f"vector o = walk_to_exit(surface, facet, 0, 16, {only}, 0, stream, walker);"
+            f"vector o = walk_to_exit(surface, material, 0, 16, {only}, 0, stream, walker);"
             "result = vector(walker.throughput);",
         )
         error = np.sqrt(walked.var(axis=0) / COUNT + found.variance[only - 1])
@@ -135,7 +136,7 @@ def test_tolerance_bounds_what_is_lost() -> None:
     surface = Surface(1.0, 1.0)
     walk = (
         "Walker walker = walker_from(surface, incidence(surface, wi), stream);"
-        "vector o = walk_to_exit(surface, facet, 0, 32, 0, {}, stream, walker);"
+        "vector o = walk_to_exit(surface, material, 0, 32, 0, {}, stream, walker);"
         "result = vector(walker.throughput);"
     )
     whole, cut = (shade(surface, 0.5, walk.format(tolerance)) for tolerance in (0.0, 0.7))

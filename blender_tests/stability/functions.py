@@ -25,7 +25,7 @@ from . import arguments as a
 
 _METAL = "Conductor metal; metal.physical = {}; metal.first = color(f0); metal.second = color(f1);"
 _GLASS = (
-    "Facet facet; facet.kind = DIELECTRIC; facet.ior = eta; int crossed;"
+    "Material material; material.kind = DIELECTRIC; material.ior = eta; int crossed;"
     "float cosine = clamp(dot(view, m), 0, 1);"
 )
 # The logarithm that the shader takes of 0 (smith.h).
@@ -194,7 +194,7 @@ FUNCTIONS = {
         rounded=("cosine", "f0"),
     ),
     "refracted": Function(
-        "facet.h",
+        "material.h",
         f"{_GLASS} result = refracted(view, m, cosine, eta);",
         _FACETS,
         answers.through,
@@ -205,8 +205,8 @@ FUNCTIONS = {
         defined=lambda view, m, eta: dot(view, m) >= 0.0,
     ),
     "scattered by glass": Function(
-        "facet.h",
-        f"{_GLASS} result = scattered(facet, view, m, 0, cosine, xi[0], xi[1], crossed);",
+        "material.h",
+        f"{_GLASS} result = scattered(material, view, m, 0, cosine, xi[0], xi[1], crossed);",
         {**_FACETS, "xi": a.THREE_UNIFORMS},
         answers.scattered,
         floor=1.0,
@@ -216,7 +216,7 @@ FUNCTIONS = {
         defined=answers.clearly_chosen,
     ),
     "scattered by matte facets": Function(
-        "facet.h",
+        "material.h",
         "result = cosine_direction(m, xi[0], xi[1]);",
         {"m": a.DIRECTION, "xi": a.THREE_UNIFORMS},
         lambda m, xi: (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first bounce of a diffuse surface: light goes wherever its facets face, times the chance to
+// The first bounce of a diffuse surface: a cosine lobe about each facet, times the chance to
 // leave.
 #ifndef MICROBOUNCE_FIRST_DIFFUSE_H
 #define MICROBOUNCE_FIRST_DIFFUSE_H
@@ -13,20 +13,21 @@
 #define DIFFUSE_FACETS 16
 #define DIFFUSE_EXITS 8
 
-// Width of these exits relative to those of further bounces: their weights are small.
+// Width of these exits relative to those of further bounces. It can be small, as their weights
+// are.
 #define EXIT_WIDTH 0.75
 
-// Most of the light is carried by two of Cycles' closures about the normal, which have no noise: a
-// ramp over the cosine z of the exit, z times the chance to leave, which is right where the view is
-// along the normal, and a part that grows with the mean slant of the visible facets of Oren and
-// Nayar's lobe, which is brighter towards the viewer. The rest is left to smoothed exits.
+// The carrier: two of Cycles' closures about the normal, which have no noise and most of the
+// light. One is a ramp over the exit's cosine z, with z times the chance to leave; it is right for
+// a view along the normal. The other is Oren and Nayar's lobe, which is brighter towards the
+// viewer; its part grows with the mean slant of the visible facets. Smoothed exits have the rest.
 #define NAYAR_PER_SLANT 2
 
-// Part of the carrier that is left where a surface is as anisotropic as can be.
+// What is left of the carrier at the highest anisotropy.
 #define PART_OF_ANISOTROPIC 0.5
 
-// Cosine of the view below which the carrier fades out: Cycles samples it by the exit's cosine,
-// which is rarely where Oren and Nayar's lobe is bright for a view that grazes.
+// The carrier fades out below this cosine of the view. Cycles samples it by the exit's cosine,
+// which misses the bright part of Oren and Nayar's lobe at grazing views.
 #define GRAZING_VIEW 0.05
 
 struct Carrier {
@@ -68,8 +69,8 @@ closure color carrier_closures(Frame frame, Carrier carrier, color weight)
   return ramp_lobe(frame.z, ramp, 1) + nayar_lobe(frame.z, weight * carrier.nayar);
 }
 
-closure color first_bounce(Frame frame, Microsurface surface, Facet facet, float kernel, vector wi,
-                           output RandomStream stream)
+closure color first_diffuse(Frame frame, Microsurface surface, Material material, float kernel,
+                            vector wi, output RandomStream stream)
 {
   Incidence arrival = incidence(surface, wi);
   vector shift = next_numbers(stream), turns = next_numbers(stream);
@@ -88,7 +89,7 @@ closure color first_bounce(Frame frame, Microsurface surface, Facet facet, float
     leave[i] = exit_probability(surface, arrival, exits[i]);
     energy += leave[i] / DIFFUSE_EXITS;
   }
-  // The carrier takes the part that it can take at all exits.
+  // The carrier takes as much as no exit forbids.
   Carrier carrier = diffuse_carrier(surface, arrival, mean, energy);
   float share[DIFFUSE_EXITS];
   float part = 1;
@@ -101,15 +102,15 @@ closure color first_bounce(Frame frame, Microsurface surface, Facet facet, float
       part = leave[i] / share[i];
   }
   part *= min(wi[2] / GRAZING_VIEW, 1);
-  // The least of few exits follows chance, the more so the less the carrier is like the surface.
+  // The least of a few exits is random, and more so if the carrier is unlike the surface.
   if (surface.alpha_y < surface.alpha_x)
     part *= mix(PART_OF_ANISOTROPIC, 1, surface.alpha_y / surface.alpha_x);
-  closure color lobes = carrier_closures(frame, carrier, part * facet.tint);
+  closure color lobes = carrier_closures(frame, carrier, part * material.tint);
   for (int i = 0; i < DIFFUSE_EXITS; ++i) {
     float rest = leave[i] - part * share[i];
     if (rest > 0)
-      lobes = smooth_exit(frame, surface, facet, EXIT_WIDTH * kernel, 1, wi, exits[i], 0,
-                          facet.tint * (rest / DIFFUSE_EXITS))
+      lobes = smooth_exit(frame, surface, material, EXIT_WIDTH * kernel, 1, wi, exits[i], 0,
+                          material.tint * (rest / DIFFUSE_EXITS))
               + lobes;
   }
   return lobes;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the Fitted steps of all materials share: closures from tables, without noise.
+// What Fitted shares among all materials: closures from tables, without noise.
 #ifndef MICROBOUNCE_FITTED_H
 #define MICROBOUNCE_FITTED_H
 
 #include "accuracy.h"
 
-// Tables are of height-correlated surfaces, for all bounces together, and of metal alone where the
-// surface is anisotropic. Shaders go on in an else: as a render starts OSL drops the branch that is
-// not taken, but nothing that follows an early return.
-int is_fitted(Microsurface surface, Facet facet, Accuracy accuracy)
+// What decides between Fitted and Walk. Tables cover the height-correlated model and all bounces
+// together; for anisotropic surfaces there is only one of metal. Shaders continue in an `else`:
+// OSL drops a branch not taken as a render starts, but nothing after an early return.
+int is_fitted(Microsurface surface, Material material, Accuracy accuracy)
 {
-  return accuracy.quality == 1 && accuracy.only == 0 && surface.model == CORRELATED
-         && (facet.kind == CONDUCTOR || surface.isotropic);
+  return accuracy.quality == QUALITY_FITTED && accuracy.only == 0 && surface.model == CORRELATED
+         && (material.kind == CONDUCTOR || surface.isotropic);
 }
 
-// A cosine well below those of most facets that a bounce meets.
+// Lower than the cosines of most facets that a bounce meets.
 #define LOW_COSINE 0.2
 
-// A metal's Fresnel factors for facets seen straight and at a low cosine.
+// A metal's Fresnel factors at normal incidence and at LOW_COSINE.
 struct FresnelRange {
   color straight;
   color low;
@@ -31,17 +31,17 @@ FresnelRange fresnel_range(Conductor metal)
   return range;
 }
 
-// The mean of a metal's Fresnel factor over facets of many cosines, where Schlick's is that at
-// `cosine`. The factor at `cosine` itself would be up to 0.01 too dark for metals that reflect less
-// before they reflect all.
+// The mean of a metal's Fresnel factor over facets of many cosines. For Schlick's curve that mean
+// is the value at `cosine`. The metal's own value there would be up to 0.01 too dark if its curve
+// dips before it rises to 1.
 color mean_fresnel(FresnelRange range, float cosine)
 {
   float s = (1 - cosine) / (1 - LOW_COSINE), s2 = s * s;
   return mix(range.straight, range.low, min(s2 * s2 * s, 1));
 }
 
-// The light of `count` bounces of which each has the factor `each` and leaves the part `rest` for
-// the next, over what endless white ones send, without the factor of the first.
+// The light of `count` bounces over that of endless white ones. Each bounce has the factor `each`,
+// apart from the first, and leaves the part `rest` for the next.
 color successive_bounces(color each, float rest, int count)
 {
   color kept = rest * each;
@@ -54,13 +54,13 @@ color successive_bounces(color each, float rest, int count)
   return ((1 - rest) / (1 - kept)) * (1 - beyond);
 }
 
-// The factor on white light of bounces 3 to `max_bounces`.
+// The factor of bounces 3 to `max_bounces` on white light.
 color later_bounces(color each, float rest, int max_bounces)
 {
   return each * each * each * successive_bounces(each, rest, max_bounces - 2);
 }
 
-// Whether a surface shows its own lobes: to the camera, also by a sharp mirror.
+// Whether the camera sees the surface's own lobes, directly or in a sharp mirror.
 int is_seen()
 {
   return raytype("camera") || raytype("singular");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Metal without noise: the first bounce is Cycles' own closure, further ones are a ramp about the
-// normal and a reflection, or go the way of the first where the surface is not seen.
+// Metal without noise. The first bounce is Cycles' own closure; further ones are a ramp about the
+// normal and a reflection. On surfaces that the camera does not see, the first closure carries
+// them.
 #ifndef MICROBOUNCE_FITTED_CONDUCTOR_H
 #define MICROBOUNCE_FITTED_CONDUCTOR_H
 
@@ -10,14 +11,14 @@
 #include "ramp.h"
 #include "reflection.h"
 
-// Aspects (1 - alpha_y / alpha_x) up to this pass from isotropic closures to anisotropic ones.
+// Up to this 1 - alpha_y / alpha_x, closures fade from isotropic to anisotropic ones.
 #define LARGEST_BLENDED_ASPECT 0.1
 
-// Cosine of the lowest direction to which the reflection of bounce 2 mirrors the view.
+// The lowest cosine to which the reflection of bounce 2 mirrors the view.
 #define LOWEST_MIRROR 0.077
 
-// A reflection of widths `along` the plane of incidence and `across` it, about the normal that
-// mirrors the view to where its sine is `ratio` times as large.
+// A reflection about the normal that mirrors the view to a sine `ratio` times its own. Its alphas
+// are `along` the plane of incidence and `across` it.
 closure color aimed_reflection(Frame frame, Microsurface surface, vector wi, color weight,
                                float ratio, float along, float across)
 {
@@ -30,20 +31,20 @@ closure color aimed_reflection(Frame frame, Microsurface surface, vector wi, col
                              1, 0);
 }
 
-// That of the isotropic surface which stands for a nearly isotropic one.
+// The alpha of the isotropic surface that stands for a nearly isotropic one.
 float mean_alpha(Microsurface surface)
 {
   return sqrt(surface.alpha_x * surface.alpha_y);
 }
 
-// What the further bounces of an isotropic metal send, wherever to.
+// What the further bounces of an isotropic metal send in all directions together.
 struct FurtherBounces {
   float energy;  // of white metal
-  float share;   // bounce 2's in that
-  color second;  // one Fresnel factor for both facets of bounce 2
-  color later;   // one for those of all others
+  float share;   // bounce 2's part of that energy
+  color second;  // the Fresnel factor of both facets of bounce 2
+  color later;   // the Fresnel factor of all other facets
   color series;  // factor of all bounces after the third
-  float cosine;  // part that is a cosine lobe where the surface is not seen
+  float cosine;  // part in a cosine lobe if the camera does not see the surface
 };
 
 FurtherBounces isotropic_further_bounces(Microsurface surface, FresnelRange fresnel, vector wi,
@@ -54,11 +55,11 @@ FurtherBounces isotropic_further_bounces(Microsurface surface, FresnelRange fres
   conductor_colour(surface.beckmann, mean_alpha(surface), wi[2], c);
   FurtherBounces further;
   further.energy = energy[0];
-  further.share = c[0];
-  further.second = mean_fresnel(fresnel, c[1]);
-  further.later = mean_fresnel(fresnel, c[2]);
-  further.series = successive_bounces(further.later, c[3], max_bounces - 2);
-  further.cosine = c[4];
+  further.share = c[METAL_SHARE_2];
+  further.second = mean_fresnel(fresnel, c[METAL_FRESNEL_2]);
+  further.later = mean_fresnel(fresnel, c[METAL_FRESNEL_LATER]);
+  further.series = successive_bounces(further.later, c[METAL_REST], max_bounces - 2);
+  further.cosine = c[METAL_RAMP_PART];
   return further;
 }
 
@@ -70,55 +71,56 @@ closure color seen_further_bounces(Frame frame, Microsurface surface, vector wi,
   conductor_shape(surface.beckmann, alpha, wi[2], v);
   color ramp[KNOTS];
   for (int k = 0; k < KNOTS; ++k)
-    ramp[k] = color(v[k] + v[KNOTS + k]);
-  color fitted = ramp_energy(ramp) + (v[16] + v[17]) * v[18];
+    ramp[k] = color(v[METAL_RAMP_2 + k] + v[METAL_RAMP_LATER + k]);
+  color fitted = ramp_energy(ramp) + (v[METAL_LOBE_2] + v[METAL_LOBE_LATER]) * v[METAL_LOBE_ENERGY];
   float scale = further.energy / fitted[0];
 
   color second = scale * further.second * further.second;
   color later = scale * further.later * further.later * further.later * further.series;
   for (int k = 0; k < KNOTS; ++k)
-    ramp[k] = second * v[k] + later * v[KNOTS + k];
-  // Cycles picks the first bounce as if it lost nothing.
-  return aimed_reflection(frame, surface, wi, second * v[16] + later * v[17], v[19],
-                          alpha * v[20], alpha * v[21])
+    ramp[k] = second * v[METAL_RAMP_2 + k] + later * v[METAL_RAMP_LATER + k];
+  // Cycles picks closures as if the first bounce lost nothing, so the ramp is picked more often.
+  color lobe = second * v[METAL_LOBE_2] + later * v[METAL_LOBE_LATER];
+  return aimed_reflection(frame, surface, wi, lobe, v[METAL_LOBE_SINE],
+                          alpha * v[METAL_LOBE_ALONG], alpha * v[METAL_LOBE_ACROSS])
          + ramp_lobe(frame.z, ramp, 1 / (1 - further.energy));
 }
 
-// All bounces of a surface that is not seen, where lobes widen nothing that is not wide already: of
-// the further ones what is a ramp elsewhere is a cosine, and the rest goes the way of the first.
-closure color unseen_conductor(Frame frame, Microsurface surface, Facet facet,
+// All bounces of a surface that the camera does not see, whose exact lobes matter less. A cosine
+// lobe replaces the ramp, and the first bounce's closure carries the rest.
+closure color unseen_conductor(Frame frame, Microsurface surface, Material material,
                                FurtherBounces further)
 {
-  // Over a facet's factor, which the first bounce has as well.
+  // Divided by one facet's factor, because the first bounce's closure has it too.
   color kept = further.energy
                * (further.share * further.second
                   + (1 - further.share) * further.later * further.later * further.series);
-  return whole_reflection(frame, surface, facet,
+  return whole_reflection(frame, surface, material,
                           1 + (1 - further.cosine) / (1 - further.energy) * kept)
          + (further.cosine * further.second * kept) * diffuse(frame.z);
 }
 
-// Surfaces that are nearly isotropic have the closures of both kinds, so that nothing jumps.
-closure color fitted_conductor(Frame frame, Microsurface surface, Facet facet, vector wi,
+// Nearly isotropic surfaces have the closures of both kinds, so that nothing jumps.
+closure color fitted_conductor(Frame frame, Microsurface surface, Material material, vector wi,
                                Accuracy accuracy)
 {
   int bounces = accuracy.max_bounces;
-  if (!has_further_bounces(surface, facet, wi, accuracy))
-    return whole_reflection(frame, surface, facet, 1);
+  if (!has_further_bounces(surface, material, wi, accuracy))
+    return whole_reflection(frame, surface, material, 1);
   float anisotropic = min((1 - surface.alpha_y / surface.alpha_x) / LARGEST_BLENDED_ASPECT, 1);
-  FresnelRange fresnel = fresnel_range(facet.metal);
+  FresnelRange fresnel = fresnel_range(material.metal);
   closure color lobes = 0;
   if (anisotropic < 1) {
     FurtherBounces further = isotropic_further_bounces(surface, fresnel, wi, bounces);
     if (!is_seen())
-      return unseen_conductor(frame, surface, facet, further);
+      return unseen_conductor(frame, surface, material, further);
     lobes = seen_further_bounces(frame, surface, wi, further);
   }
   if (!surface.isotropic)
     lobes = (1 - anisotropic) * lobes
             + anisotropic * anisotropic_further_bounces(frame, surface, fresnel, wi, bounces);
-  // In another order Cycles' samples spread less evenly over the closures, and make more noise.
-  return lobes + whole_reflection(frame, surface, facet, 1);
+  // This order spreads Cycles' samples most evenly over the closures, which gives the least noise.
+  return lobes + whole_reflection(frame, surface, material, 1);
 }
 
 #endif

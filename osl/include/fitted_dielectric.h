@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Glass that is seen, with next to no noise. Cycles' own closure is the first bounce where it is
-// near enough, elsewhere it is Single's. Further bounces are lobes on both sides, which also make
-// good the energy of Cycles' closure.
+// Glass that the camera sees, with almost no noise. The first bounce is Cycles' own closure where
+// that is close enough, else Single's. Further bounces are lobes on both sides, which also correct
+// the energy of Cycles' closure.
 #ifndef MICROBOUNCE_FITTED_DIELECTRIC_H
 #define MICROBOUNCE_FITTED_DIELECTRIC_H
 
@@ -10,23 +10,23 @@
 #include "ramp.h"
 #include "refraction.h"
 
-// Alphas from which on Cycles' refraction is left for Single's, within a CROSSFADE: evaluated where
-// no facet refracts to, it takes the density of facets that lean over, of which GGX has more.
+// Above this alpha, cross-fade from Cycles' refraction to Single's. In directions that no facet
+// refracts to, Cycles uses the density of facets that lean past vertical; GGX has more of these.
 #define WIDEST_WHOLE_GGX 0.3
 #define WIDEST_WHOLE_BECKMANN 0.75
 #define CROSSFADE 0.05
 
-// Random facets for Single's refraction. Beside the further bounces, which have no noise, they make
-// little more of it than all of Single's do.
+// Random facets for Single's refraction. They make little more noise than all of Single's, since
+// the further bounces have none.
 #define FITTED_FACETS 5
 
-// Least elevation (rad) of the mirrored view about a tilted normal.
+// The mirrored view about a tilted normal rises at least this far above the horizon (rad).
 #define LOWEST_MIRRORED 0.02
 
-// Further bounces of so little energy, on either side, go the way of the first.
+// Bounces that carry less energy than this are folded into the first bounce's closure.
 #define LEFT_TO_FIRST 0.005
 
-// Tables begin and end with these indices.
+// Whether the tables cover this index of refraction.
 int is_index_fitted(float ior)
 {
   float index = max(ior, 1 / ior);
@@ -41,7 +41,7 @@ float share_of_single(Microsurface surface, int max_bounces)
   return (max_bounces == 1) ? 1 : share;
 }
 
-// The normal that leans towards the viewer by `angle`, as far as Cycles lets it be.
+// The normal that leans towards the viewer by `angle`, as far as Cycles leaves it unbent.
 vector leaning_normal(Frame frame, vector wi, float angle)
 {
   float theta = acos(clamp(wi[2], 0, 1));
@@ -52,60 +52,63 @@ vector leaning_normal(Frame frame, vector wi, float angle)
   return to_world(frame, sin(lean) * side + vector(0, 0, cos(lean)));
 }
 
-closure color fitted_dielectric(Frame frame, Microsurface surface, Facet facet, vector wi,
+closure color fitted_dielectric(Frame frame, Microsurface surface, Material material, vector wi,
                                 Accuracy accuracy)
 {
   float single = share_of_single(surface, accuracy.max_bounces);
   closure color lobes = 0;
-  color first = facet.tint;
-  if (has_further_bounces(surface, facet, wi, accuracy)) {
-    int inside = facet.ior < 1;
+  color first = material.tint;
+  if (has_further_bounces(surface, material, wi, accuracy)) {
+    int inside = material.ior < 1;
     float v[10], missing[2];
-    dielectric_shape(surface.beckmann, inside, surface.alpha_x, wi[2], facet.ior, v);
+    dielectric_shape(surface.beckmann, inside, surface.alpha_x, wi[2], material.ior, v);
     if (inside)
-      dielectric_energy_inside(surface.beckmann, surface.alpha_x, wi[2], facet.ior, missing);
+      dielectric_energy_inside(surface.beckmann, surface.alpha_x, wi[2], material.ior, missing);
     else
-      dielectric_energy_outside(surface.beckmann, surface.alpha_x, wi[2], facet.ior, missing);
+      dielectric_energy_outside(surface.beckmann, surface.alpha_x, wi[2], material.ior, missing);
 
-    missing[0] *= missing[0];
-    missing[1] *= missing[1];
+    float beyond_cycles = missing[GLASS_ROOT_BEYOND_CYCLES] * missing[GLASS_ROOT_BEYOND_CYCLES];
+    float beyond_first = missing[GLASS_ROOT_BEYOND_FIRST] * missing[GLASS_ROOT_BEYOND_FIRST];
+    float thinner_part = v[GLASS_ROOT_THINNER] * v[GLASS_ROOT_THINNER];
     // Each bounce after the first leaves the same part for the next.
-    color further = missing[1] * facet.tint * facet.tint
-                    * successive_bounces(facet.tint, v[9], accuracy.max_bounces - 1);
-    // What Cycles' closure has too much of the first bounce is taken from what goes through.
-    color thinner = v[0] * v[0] * further;
+    color further = beyond_first * material.tint * material.tint
+                    * successive_bounces(material.tint, v[GLASS_REST], accuracy.max_bounces - 1);
+    // Cycles' closure sends too much at the first bounce; what goes through makes up for that.
+    color thinner = thinner_part * further;
     color back = inside ? further - thinner : thinner;
-    color through = further - back - (1 - single) * (missing[1] - missing[0]) * facet.tint;
+    color through = further - back - (1 - single) * (beyond_first - beyond_cycles) * material.tint;
     back = max(back + min(through, color(0)), color(0));
     through = max(through, color(0));
     color least_back = min(back, color(LEFT_TO_FIRST));
     color least_through = min(through, color(LEFT_TO_FIRST));
-    first += (least_back + least_through) / (1 - missing[0]);
+    first += (least_back + least_through) / (1 - beyond_cycles);
     back -= (1 - single) * least_back;
     through -= (1 - single) * least_through;
-    vector axis = leaning_normal(frame, wi, v[3]);
+    vector axis = leaning_normal(frame, wi, v[GLASS_STEEP_TILT]);
     color plateau[KNOTS];
     for (int k = 0; k < KNOTS; ++k)
       plateau[k] = plateau_knot(k);
-    vector n = leaning_normal(frame, wi, v[7]);
-    lobes = v[1] * v[2] * v[2] * through
-                * microfacet("beckmann", axis, any_tangent(axis), v[4], v[4], STEEP_IOR, 1)
-            + (1 - v[1]) * through * translucent(frame.z)
-            + v[5] * v[6] * v[6] * back
-                  * microfacet(distribution_name(surface), n, any_tangent(n), v[8], v[8], 1, 0)
-            + (1 - v[5]) * back * diffuse_ramp(frame.z, plateau);
+    vector n = leaning_normal(frame, wi, v[GLASS_MIRROR_TILT]);
+    float steep = v[GLASS_STEEP_ROOT], width = v[GLASS_STEEP_WIDTH];
+    float mirror = v[GLASS_MIRROR_ROOT], alpha = v[GLASS_MIRROR_ALPHA];
+    lobes = v[GLASS_STEEP_PART] * steep * steep * through
+                * microfacet("beckmann", axis, any_tangent(axis), width, width, STEEP_IOR, 1)
+            + (1 - v[GLASS_STEEP_PART]) * through * translucent(frame.z)
+            + v[GLASS_MIRROR_PART] * mirror * mirror * back
+                  * microfacet(distribution_name(surface), n, any_tangent(n), alpha, alpha, 1, 0)
+            + (1 - v[GLASS_MIRROR_PART]) * back * diffuse_ramp(frame.z, plateau);
   }
   if (single > 0) {
     RandomStream stream = random_stream(P, I);
     int facets = (accuracy.max_bounces > 1) ? FITTED_FACETS : FACETS;
-    lobes = single * (whole_reflection(frame, surface, facet, 1)
-                      + first_refraction(grounded(frame), surface, facet, wi, facets,
+    lobes = single * (whole_reflection(frame, surface, material, 1)
+                      + first_refraction(grounded(frame), surface, material, wi, facets,
                                           stream))
             + lobes;
   }
   if (single < 1)
     lobes = (1 - single) * first * dielectric_bsdf(frame.z, frame.x, color(1), color(1),
-                                                   surface.alpha_x, surface.alpha_y, facet.ior,
+                                                   surface.alpha_x, surface.alpha_y, material.ior,
                                                    distribution_name(surface))
             + lobes;
   return lobes;

@@ -7,11 +7,11 @@ struct Frame {
   vector x;
   vector y;
   vector z;
-  vector ground;  // bending_ground() in these coordinates, from grounded() on
+  vector ground;  // bending_ground() in these coordinates; grounded() sets it
 };
 
 // Smallest cosine between the viewer and the macro-normal. Smooth and bumped normals can turn away
-// from the viewer, where no height field is seen; the normal is then bent back just this far.
+// from the viewer, who would then see no height field. They are bent back just this far.
 #define MIN_VIEW_COSINE 1e-4
 
 // The unit normal nearest to `n` that the viewer can see.
@@ -21,8 +21,8 @@ vector visible_normal(vector n, vector view)
   return (cosine >= MIN_VIEW_COSINE) ? n : normalize(n + (MIN_VIEW_COSINE - cosine) * view);
 }
 
-// The geometric normal, up to which Cycles bends the normals of closures; zero on curves, where it
-// bends none.
+// The geometric normal, towards which Cycles bends the normals of closures. Zero on curves, where
+// Cycles bends none.
 vector bending_ground()
 {
   float is_curve = 0;
@@ -30,16 +30,16 @@ vector bending_ground()
   return (is_curve != 0) ? vector(0) : Ng;
 }
 
-// Cycles bends the normal of a closure, a refraction's too, where the mirrored view would go below
-// the geometric surface (material setting Bump Map Correction). True where it leaves `n` alone.
+// Whether Cycles leaves the normal `n` of a closure alone. It bends one, a refraction's too, if
+// the mirrored view would go below the geometric surface (material setting Bump Map Correction).
 int is_left_alone(vector n, vector view, vector ground)
 {
   float height = dot(view, ground);
   return 2 * dot(n, view) * dot(n, ground) - height >= min(0.9 * height, 0.01);
 }
 
-// The normal that Cycles takes instead of `n`: turned towards the geometric one until the mirrored
-// view is just above the surface, so that view and mirrored view are equally far from it.
+// The normal that Cycles uses instead of `n`: turned towards the geometric one until the mirrored
+// view is just above the surface. View and mirrored view are equally far from it.
 vector corrected_normal(vector n, vector view, vector ground)
 {
   vector along = n - dot(n, ground) * ground;
@@ -58,11 +58,11 @@ vector any_tangent(vector n)
   return normalize((abs(n[0]) > abs(n[2])) ? vector(-n[1], n[0], 0) : vector(0, -n[2], n[1]));
 }
 
-// A cross product of unit vectors shorter than this is the rounding of parallel ones.
+// A shorter cross product of unit vectors is just the rounding of parallel ones.
 #define PARALLEL_SQUARED 1e-10
 
-// Cycles' convention for microfacets: y = N x T, x = y x N, both arguments unit vectors. A tangent
-// parallel to the normal gives an arbitrary frame about it.
+// The frame by Cycles' convention for microfacets: y = N x T, x = y x N, for unit vectors N and T.
+// A tangent parallel to the normal gives an arbitrary frame about it.
 Frame shading_frame(vector n, vector tangent)
 {
   Frame frame;
@@ -93,8 +93,8 @@ vector to_world(Frame frame, vector w)
   return w[0] * frame.x + w[1] * frame.y + w[2] * frame.z;
 }
 
-// The same frame, for closures of which Cycles may bend the normal. Fitted mostly has none of them,
-// and is spared the question.
+// The same frame, for closures whose normal Cycles may bend. Fitted has few of these, so it does
+// not ask.
 Frame grounded(Frame frame)
 {
   Frame known = frame;

@@ -3,8 +3,12 @@
 #ifndef MICROBOUNCE_FRESNEL_H
 #define MICROBOUNCE_FRESNEL_H
 
+// Choices of the input Fresnel.
+#define F82_TINT 0
+#define N_AND_K 1
+
 struct Conductor {
-  int physical;  // 0 F82 tint, 1 complex index of refraction
+  int physical;  // has a complex index of refraction, else F82 tint
   color first;   // reflectance at normal incidence, or n
   color second;  // tint at 82 degrees, or k
 };
@@ -21,8 +25,8 @@ color f82_tint_fresnel(color f0, color tint, float cosine)
   return clamp(mix(f0, color(1), s5) - dip * (cosine * s5 * s), color(0), color(1));
 }
 
-// Unpolarised reflectance of a conductor with index n + i k in vacuum (Born and Wolf, Principles of
-// Optics, section 14.2), with a^2 + b^2 and a taken from the complex square root without
+// Unpolarised reflectance of a conductor with index n + i k in vacuum (Born and Wolf, Principles
+// of Optics, section 14.2). a^2 + b^2 and a come from the complex square root without
 // cancellation: the smaller of (root +- real) / 2 follows from their product, (n k)^2.
 color n_k_fresnel(color n, color k, float cosine)
 {
@@ -54,10 +58,10 @@ color conductor_fresnel(Conductor metal, float cosine)
                         : f82_tint_fresnel(metal.first, metal.second, cosine);
 }
 
-// Unpolarised reflectance of a dielectric; `eta` is the index beyond the facet over that on the
-// path's side. With g = eta cos(theta_t) Fresnel's differences c - g and eta^2 c - g are multiplied
-// out, which keeps their digits for eta near 1; g^2 = eta^2 - sin^2 = eta^2 - 1 + cos^2 is taken
-// from the smaller square, which keeps its digits for eta near 0.
+// Unpolarised reflectance of a dielectric. `eta` is the index beyond the facet over that on the
+// path's side, and g = eta cos(theta_t). Fresnel's differences c - g and eta^2 c - g are
+// multiplied out, which keeps their digits for eta near 1. g^2 = eta^2 - sin^2 = eta^2 - 1 + cos^2
+// comes from the smaller square, which keeps its digits for eta near 0.
 float dielectric_fresnel(float eta, float cosine)
 {
   float rise = (eta - 1) * (eta + 1), eta2 = eta * eta;

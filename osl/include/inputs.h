@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes into a shader, brought to its legal range. The only place where values are clamped.
+// Brings what comes into a shader to its legal range. Values are clamped only here.
 #ifndef MICROBOUNCE_INPUTS_H
 #define MICROBOUNCE_INPUTS_H
 
@@ -7,7 +7,7 @@
 #include "frame.h"
 #include "ndf.h"
 
-// `value` limited to [low, high]; what is not a finite number becomes `fallback`.
+// `value` limited to [low, high]; `fallback` if it is not a finite number.
 float legal(float value, float low, float high, float fallback)
 {
   return isfinite(value) ? clamp(value, low, high) : fallback;
@@ -26,8 +26,8 @@ vector direction(vector value, vector fallback)
   return (isfinite(squared) && squared > 0) ? normalize(value) : fallback;
 }
 
-// The rough surface of Cycles' Metallic BSDF: alpha = roughness^2, spread by the aspect and limited
-// to 1.
+// Where roughness becomes alpha, as in Cycles' Metallic BSDF: alpha = roughness^2, spread by the
+// aspect and limited to 1.
 Microsurface microsurface(float roughness, float anisotropy, int distribution, int model)
 {
   float alpha = legal(roughness, 0, 1, 0.5);
@@ -36,14 +36,15 @@ Microsurface microsurface(float roughness, float anisotropy, int distribution, i
   Microsurface surface;
   surface.alpha_x = min(alpha / aspect, 1);
   surface.alpha_y = alpha * aspect;
-  // As a render starts the first is worked out, whatever the roughness, but not isfinite().
+  // OSL works out the first comparison as a render starts, whatever the roughness, but no
+  // isfinite().
   surface.isotropic = anisotropy <= 0 || surface.alpha_x == surface.alpha_y;
-  surface.beckmann = distribution == 1;
-  surface.model = clamp(model, 0, 2);
+  surface.beckmann = distribution == BECKMANN;
+  surface.model = clamp(model, CORRELATED, HEIGHT_TRACKED);
   return surface;
 }
 
-// The local frame: z from `n`, x along the tangent where the surface is anisotropic, else anywhere.
+// The local frame: z along `n`, x along the tangent if the surface is anisotropic, else anywhere.
 Frame oriented_frame(Microsurface surface, vector n, vector fallback, vector given, float rotation,
                      vector view)
 {
@@ -63,7 +64,7 @@ Accuracy legal_accuracy(int quality, int max_bounces, int only, float tolerance,
                         float kernel)
 {
   Accuracy accuracy;
-  accuracy.quality = clamp(quality, 0, 3);
+  accuracy.quality = clamp(quality, QUALITY_SINGLE, QUALITY_EXACT);
   accuracy.max_bounces = clamp(max_bounces, 1, 64);
   accuracy.only = clamp(only, 0, accuracy.max_bounces);
   accuracy.tolerance = legal(tolerance, 0, 1, 0.001);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rough surface: its normal distribution, GGX or Beckmann, isotropic or anisotropic, and the
-// model of how the heights of successive bounces depend on one another.
+// The rough surface: its normal distribution (NDF), and the model of how the heights of successive
+// bounces depend on each other.
 #ifndef MICROBOUNCE_NDF_H
 #define MICROBOUNCE_NDF_H
+
+// Choices of the inputs Distribution and Model.
+#define GGX 0
+#define BECKMANN 1
 
 #define CORRELATED 0
 #define UNCORRELATED 1
@@ -12,7 +16,7 @@ struct Microsurface {
   float alpha_x;
   float alpha_y;
   int isotropic;  // alpha_x == alpha_y
-  int beckmann;  // 0 GGX, 1 Beckmann
+  int beckmann;   // else GGX
   int model;
 };
 

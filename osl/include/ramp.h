@@ -16,9 +16,10 @@ color ramp_energy(color knots[KNOTS])
   return 2 / (KNOTS - 1.0) * sum;
 }
 
-// Value times cosine is the ramp over the cosine to `axis`, over pi. The closure's weight is what
-// Cycles picks lobes by, so the energy goes there, and its ramp keeps the proportions. `emphasis`
-// makes the lobe picked as many times as often, where others count for more than they send.
+// A lobe whose value times cosine is the ramp over the cosine to `axis`, over pi. Cycles picks
+// lobes by the closure's weight, so the energy goes there and the ramp keeps the proportions.
+// `emphasis` multiplies how often the lobe is picked; it helps if others are picked more often
+// than they should.
 closure color ramp_lobe(vector axis, color knots[KNOTS], float emphasis)
 {
   color energy = ramp_energy(knots);
@@ -30,13 +31,13 @@ closure color ramp_lobe(vector axis, color knots[KNOTS], float emphasis)
   return weight * diffuse_ramp(axis, proportions);
 }
 
-// Oren and Nayar's lobe of roughness 1 as Cycles has it (Fujii's form), without interreflection:
-// z (1 + t) / NAYAR_NORM per unit of cosine density z / pi; here without that norm.
+// Oren and Nayar's lobe of roughness 1 as Cycles has it (Fujii's form), without interreflection,
+// is (1 + t) / NAYAR_NORM times the cosine density z / pi. Here it goes without that norm.
 #define NAYAR_NORM (1.5 - 2 / (3 * M_PI))
 
-// Its energy without that norm, for the view's cosine: the integral of (1 + t) z / pi over the
-// hemisphere. On the viewer's half t is divided by the larger of both cosines, on the other it is
-// not, so each has an integral of its own.
+// Its energy for the view's cosine, without that norm: the integral of (1 + t) z / pi over the
+// hemisphere. Only on the viewer's half is t divided by the larger of both cosines, so each half
+// has its own integral.
 float nayar_energy(float cosine)
 {
   float c = clamp(cosine, 0, 1);
@@ -47,7 +48,7 @@ float nayar_energy(float cosine)
 
 closure color nayar_lobe(vector n, color factor)
 {
-  // The closure's own interreflection grows with the square of the albedo it is given.
+  // The closure's own interreflection grows with the square of its albedo.
   float albedo = 1e-4;
   return (NAYAR_NORM / albedo) * factor * oren_nayar_diffuse_bsdf(n, color(albedo), 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random numbers of one shading point: the same point and view give the same numbers again.
+// Random numbers of one shading point. The same point and view give the same numbers again.
 #ifndef MICROBOUNCE_RANDOM_H
 #define MICROBOUNCE_RANDOM_H
 
@@ -8,8 +8,8 @@ struct RandomStream {
   float counter;
 };
 
-// The pixel filter moves P from sample to sample, so every sample gets its own numbers; the view
-// keeps paths apart that meet in one point.
+// The pixel filter moves P from sample to sample, so each sample gets its own numbers. The view
+// separates paths that meet in one point.
 RandomStream random_stream(point position, vector view)
 {
   RandomStream stream;
@@ -34,7 +34,7 @@ vector next_numbers(output RandomStream stream)
   return u;
 }
 
-// Point `index` of a rank-1 lattice in the unit cube, moved by the random `shift`: the points of
+// Point `index` of a rank-1 lattice in the unit cube, moved by the random `shift`. Points of
 // consecutive indices spread evenly (steps of the generalised golden ratio in three dimensions,
 // Roberts 2018).
 vector lattice_point(int index, vector shift)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first bounce of what is reflected. Where Cycles has no closure for the whole of it, it has
-// one for most of it, the carrier, which has no noise; the rest is left to some of the facets that
-// the view sees, each of them a smooth lobe.
+// The first bounce of reflected light. If Cycles has no closure for all of it, a carrier has most
+// of it without noise. Smooth lobes about some of the visible facets have the rest.
 #ifndef MICROBOUNCE_REFLECTION_H
 #define MICROBOUNCE_REFLECTION_H
 
@@ -12,11 +11,10 @@
 
 #define FACETS 10
 
-// Half-width of a facet's lobe relative to the surface's.
+// Half-width of one facet's lobe over the surface's.
 #define FACET_LOBE 0.3
 
-// The largest part of the carrier, at most `part`, that at none of the facets is brighter than what
-// leaves.
+// The largest part of the carrier, at most `part`, that sends no more than leaves at any facet.
 float possible_part(float part, float leave[FACETS], float carried[FACETS], int facets)
 {
   float possible = part;
@@ -26,23 +24,23 @@ float possible_part(float part, float leave[FACETS], float carried[FACETS], int 
   return possible;
 }
 
-// Reflection by Cycles' own closures, which are height-correlated, times `part`.
-closure color whole_reflection(Frame frame, Microsurface surface, Facet facet, color part)
+// Cycles' own reflection, which is height-correlated, times `part`.
+closure color whole_reflection(Frame frame, Microsurface surface, Material material, color part)
 {
   string ndf = distribution_name(surface);
-  if (facet.kind == DIELECTRIC)
-    return dielectric_bsdf(frame.z, frame.x, part * facet.tint, color(0), surface.alpha_x,
-                           surface.alpha_y, facet.ior, ndf);
-  if (facet.metal.physical)
+  if (material.kind == DIELECTRIC)
+    return dielectric_bsdf(frame.z, frame.x, part * material.tint, color(0), surface.alpha_x,
+                           surface.alpha_y, material.ior, ndf);
+  if (material.metal.physical)
     return part * conductor_bsdf(frame.z, frame.x, surface.alpha_x, surface.alpha_y,
-                                 vector(facet.metal.first), vector(facet.metal.second), ndf);
+                                 vector(material.metal.first), vector(material.metal.second), ndf);
   return part * microfacet_f82_tint(ndf, frame.z, frame.x, surface.alpha_x, surface.alpha_y,
-                                    facet.metal.first, facet.metal.second);
+                                    material.metal.first, material.metal.second);
 }
 
-// Reflection in the uncorrelated model: the correlated one is the carrier.
-closure color uncorrelated_reflection(Frame frame, Microsurface surface, Facet facet, vector wi,
-                                      output RandomStream stream)
+// Reflection in the uncorrelated model, with the correlated one as the carrier.
+closure color uncorrelated_reflection(Frame frame, Microsurface surface, Material material,
+                                      vector wi, output RandomStream stream)
 {
   Microsurface correlated = surface;
   correlated.model = CORRELATED;
@@ -58,29 +56,29 @@ closure color uncorrelated_reflection(Frame frame, Microsurface surface, Facet f
     carried[i] = exit_probability(correlated, arrival, exits[i]);
   }
   float part = possible_part(1, leave, carried, FACETS);
-  closure color lobes = whole_reflection(frame, surface, facet, part);
+  closure color lobes = whole_reflection(frame, surface, material, part);
   for (int i = 0; i < FACETS; ++i) {
     float rest = leave[i] - part * carried[i];
-    if (facet.kind == DIELECTRIC)
-      rest *= dielectric_fresnel(facet.ior, cosine[i]);
+    if (material.kind == DIELECTRIC)
+      rest *= dielectric_fresnel(material.ior, cosine[i]);
     if (rest > 0)
       lobes = smooth_reflection(frame, wi, exits[i], FACET_LOBE * surface.alpha_x,
                                 FACET_LOBE * surface.alpha_y,
-                                facet_weight(facet, cosine[i]) * (rest / FACETS))
+                                scattering_factor(material, cosine[i]) * (rest / FACETS))
               + lobes;
   }
   return lobes;
 }
 
 // Reflection in any model.
-closure color first_reflection(Frame frame, Microsurface surface, Facet facet, vector wi,
+closure color first_reflection(Frame frame, Microsurface surface, Material material, vector wi,
                                output RandomStream stream)
 {
   closure color lobes = 0;
   if (surface.model == UNCORRELATED)
-    lobes = uncorrelated_reflection(frame, surface, facet, wi, stream);
+    lobes = uncorrelated_reflection(frame, surface, material, wi, stream);
   else
-    lobes = whole_reflection(frame, surface, facet, 1);
+    lobes = whole_reflection(frame, surface, material, 1);
   return lobes;
 }
 

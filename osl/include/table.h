@@ -3,15 +3,15 @@
 #ifndef MICROBOUNCE_TABLE_H
 #define MICROBOUNCE_TABLE_H
 
-// The three nodes around a place and their weights: a half of the square between four nodes.
+// The three nodes around a place and their weights. They span half the square between four nodes.
 struct Cell {
   int node[3];
   float weight[3];
 };
 
-// What several bounces do depends on cosine / alpha where both are small, and on the angle where
-// that is small: nodes are even in sqrt(alpha) and in sqrt(alpha (1 - cosine) / (alpha + cosine)).
-// `first` is added to the nodes' numbers.
+// The cell of a place. Further bounces depend on cosine / alpha if both are small, and on the
+// view's angle if that is small. So nodes are even in sqrt(alpha) and in sqrt(alpha (1 - cosine) /
+// (alpha + cosine)). `first` is added to the nodes' numbers.
 Cell table_cell(float alpha, float cosine, int alphas, int cosines, int first)
 {
   float x = sqrt(alpha) * (alphas - 1);

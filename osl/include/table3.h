@@ -12,8 +12,9 @@ struct Cube {
   float weight[6];
 };
 
-// Nodes are even in the root of the index' logarithm, from whichever side, between `lowest` and
-// `highest`; as in table_cell along the other axes. `first` is added to the nodes' numbers.
+// The cell of a place. Nodes are even in the root of the index' logarithm, between `lowest` and
+// `highest` and on either side of the surface; the other axes are table_cell's. `first` is added
+// to the nodes' numbers.
 Cube table_cube(float alpha, float cosine, float ior, float lowest, float highest, int alphas,
                 int cosines, int indices, int first)
 {

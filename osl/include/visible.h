@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sampling of the visible normals, Dvis(v, m) = <v, m> D(m) / sigma(v), for v on either side of the
+// Samples visible normals (VNDF), Dvis(v, m) = <v, m> D(m) / sigma(v), for v on either side of the
 // horizon.
 #ifndef MICROBOUNCE_VISIBLE_H
 #define MICROBOUNCE_VISIBLE_H
@@ -8,9 +8,9 @@
 #include "ndf.h"
 #include "smith.h"
 
-// GGX: the micronormals of alpha 1 visible from the unit vector `w` are h = c + w, with c uniform
-// on the spherical cap c.z > -w.z (Dupuy and Benyoub 2023). `1 + w.z` and `h.z` are written without
-// the difference that would cancel where w points down.
+// GGX: a micronormal of alpha 1 visible from the unit vector `w` is h = c + w, with c uniform on
+// the spherical cap c.z > -w.z (Dupuy and Benyoub 2023). `1 + w.z` and `h.z` avoid the difference
+// that cancels if w points down.
 vector ggx_visible_normal(vector w, vector u)
 {
   float width = (w[2] >= 0) ? 1 + w[2] : (w[0] * w[0] + w[1] * w[1]) / (1 - w[2]);
@@ -22,10 +22,10 @@ vector ggx_visible_normal(vector w, vector u)
 }
 
 // Beckmann seen from below the horizon: only slopes x > a are visible along the incidence, with
-// density (x - a) exp(-x^2), where a >= 0 is the cotangent of the stretched direction. Returns
-// y = x - a that solves tail(y) = u tail(0), where tail is the integral from y on, without its
-// factor exp(-a^2) / 2, which would underflow. Halley's method, started at the mode: density and
-// tail are log-concave, so that the denominator of a step stays above 1/2.
+// density (x - a) exp(-x^2); a >= 0 is the cotangent of the stretched direction. Returns the y = x
+// - a that solves tail(y) = u tail(0). The tail is the integral from y on, without its factor
+// exp(-a^2) / 2, which would underflow. Halley's method, started at the mode. Density and tail are
+// log-concave, so the denominator of a step stays above 1/2.
 float beckmann_tail_slope(float a, float u)
 {
   float root_pi = sqrt(M_PI);
@@ -45,10 +45,10 @@ float beckmann_tail_slope(float a, float u)
 }
 
 // Beckmann: a micronormal of alpha 1, not normalised, visible from the unit vector `w`. sigma(w) =
-// w.z + sigma(-w) splits the density <w, m> D(m) in two parts that are easy to sample. The first is
-// the whole distribution, mirrored to the side that faces w as often as it is the more visible one.
-// The second, with probability `steep`, are the slopes so steep that -w sees them mirrored; from
-// below, only these are left.
+// w.z + sigma(-w) splits the density <w, m> D(m) in two parts that are easy to sample. The first
+// is the whole distribution, mirrored to the side facing w as often as that is the more visible
+// one. The second, with probability `steep`, has the slopes so steep that -w sees them mirrored.
+// From below, only the second is left.
 vector beckmann_visible_normal(vector w, float steep, vector u)
 {
   float cosine = abs(w[2]);
@@ -72,8 +72,8 @@ vector beckmann_visible_normal(vector w, float steep, vector u)
                 along * azimuth[1] + across * azimuth[0], 1);
 }
 
-// A micronormal visible from `arrival`: a unit vector with z >= 0. Of the three numbers in u,
-// uniform in [0, 1], GGX needs two.
+// A micronormal visible from `arrival`: a unit vector with z >= 0. The numbers in u are uniform in
+// [0, 1]; GGX uses two of them.
 vector sample_visible_normal(Microsurface surface, Incidence arrival, vector u)
 {
   vector w = arrival.stretched;

@@ -2,19 +2,19 @@
 // The position-free random walk inside the microgeometry (Wang et al. 2022), and the walk that
 // carries its height (Heitz et al. 2016).
 //
-// A vertex receives the path from `v`, minus its direction of travel, and sends it to `o`. Sampling
-// the visible normals leaves the facet's factor as the only weight, and the whole segment term is
-// the chance to leave: G2(i=k) = G1dist(v) leave, G2(i<k) = G1dist(v) (1 - leave).
+// A vertex receives the path from `v`, minus its direction of travel, and sends it to `o`. With
+// visible normals as samples, the facet's factor is the only weight. The whole segment term is the
+// chance to leave: G2(i=k) = G1dist(v) leave, G2(i<k) = G1dist(v) (1 - leave).
 #ifndef MICROBOUNCE_WALK_H
 #define MICROBOUNCE_WALK_H
 
-#include "facet.h"
+#include "material.h"
 #include "ndf.h"
 #include "random.h"
 #include "smith.h"
 #include "visible.h"
 
-// A path on its way to the next vertex, in the frame of its side (facet.h).
+// A path on its way to the next vertex, in the frame of its side (material.h).
 struct Walker {
   vector v;
   int below;
@@ -24,11 +24,11 @@ struct Walker {
 
 struct Vertex {
   vector m;
-  vector o;      // where the path goes on, in the frame of the side it is on then
+  vector o;      // where the path goes next, in the frame of the side it is then on
   int crossed;   // whether that is the other side
   float cosine;  // between the ray and the facet
   float leave;   // chance that it leaves the surface in this direction
-  float log_u;   // height on the side after; of the height-tracked model alone
+  float log_u;   // height seen from that side; of the height-tracked model alone
 };
 
 Walker walker_from(Microsurface surface, Incidence arrival, output RandomStream stream)
@@ -43,17 +43,17 @@ Walker walker_from(Microsurface surface, Incidence arrival, output RandomStream 
   return walker;
 }
 
-Vertex sample_vertex(Microsurface surface, Facet facet, Incidence arrival, Walker walker, vector u,
-                     output RandomStream stream)
+Vertex sample_vertex(Microsurface surface, Material material, Incidence arrival, Walker walker,
+                     vector u, output RandomStream stream)
 {
   Vertex vertex;
   vector extra = vector(0);
-  if (facet.kind != CONDUCTOR)
+  if (material.kind != CONDUCTOR)
     extra = next_numbers(stream);
   vertex.m = sample_visible_normal(surface, arrival, u);
   vertex.cosine = clamp(dot(arrival.v, vertex.m), 0, 1);
-  vertex.o = scattered(facet, arrival.v, vertex.m, walker.below, vertex.cosine, extra[0], extra[1],
-                       vertex.crossed);
+  vertex.o = scattered(material, arrival.v, vertex.m, walker.below, vertex.cosine, extra[0],
+                       extra[1], vertex.crossed);
   vertex.log_u = walker.log_u;
   if (surface.model == HEIGHT_TRACKED) {
     if (vertex.crossed)
@@ -65,7 +65,7 @@ Vertex sample_vertex(Microsurface surface, Facet facet, Incidence arrival, Walke
   return vertex;
 }
 
-// The path after a vertex that it does not leave from.
+// The path after a vertex where it stays.
 Walker stayed(Microsurface surface, Walker walker, Vertex vertex, output RandomStream stream)
 {
   Walker next = walker;
@@ -76,9 +76,9 @@ Walker stayed(Microsurface surface, Walker walker, Vertex vertex, output RandomS
   return next;
 }
 
-// One of `candidates` vertices, chosen in proportion to the energy that it keeps inside, with the
-// mean of that energy in `kept`: walks are spent where the light is.
-Vertex sample_kept_vertex(Microsurface surface, Facet facet, Incidence arrival, Walker walker,
+// One of `candidates` vertices, chosen in proportion to the energy it keeps inside, so that walks
+// go where the light is. `kept` is the mean of that energy.
+Vertex sample_kept_vertex(Microsurface surface, Material material, Incidence arrival, Walker walker,
                           vector shift, int first, int candidates, output RandomStream stream,
                           output float kept)
 {
@@ -87,12 +87,12 @@ Vertex sample_kept_vertex(Microsurface surface, Facet facet, Incidence arrival, 
   float threshold = next_number(stream);
   for (int i = first; i < first + candidates; ++i) {
     Vertex vertex =
-        sample_vertex(surface, facet, arrival, walker, lattice_point(i, shift), stream);
+        sample_vertex(surface, material, arrival, walker, lattice_point(i, shift), stream);
     float inside = 1 - vertex.leave;
     if (inside <= 0)
       continue;
     kept += inside;
-    // Reservoir of one; the threshold is uniform again whichever way it falls.
+    // Reservoir of one. The threshold is uniform again whichever way it falls.
     if (threshold * kept <= inside) {
       chosen = vertex;
       threshold *= kept / inside;
@@ -104,18 +104,18 @@ Vertex sample_kept_vertex(Microsurface surface, Facet facet, Incidence arrival, 
   return chosen;
 }
 
-// Follows a path that has made `bounces` bounces until it leaves; returns its direction in the
+// Follows a path after its first `bounces` bounces until it leaves. Returns its direction in the
 // frame of the side it leaves on, `walker.below`, with its weight in `walker.throughput`. At
-// `max_bounces` only the part that leaves counts; a path that stays with less than `tolerance` is
+// `max_bounces` only the part that leaves counts. A path that stays with less than `tolerance` is
 // lost (throughput 0). With `only` k > 0 the weight is what leaves at bounce k.
-vector walk_to_exit(Microsurface surface, Facet facet, int bounces, int max_bounces, int only,
+vector walk_to_exit(Microsurface surface, Material material, int bounces, int max_bounces, int only,
                     float tolerance, output RandomStream stream, output Walker walker)
 {
   int last = (only > 0) ? only : max_bounces;
   for (int bounce = bounces + 1; bounce <= last; ++bounce) {
-    Vertex vertex = sample_vertex(surface, facet, incidence(surface, walker.v), walker,
+    Vertex vertex = sample_vertex(surface, material, incidence(surface, walker.v), walker,
                                   next_numbers(stream), stream);
-    walker.throughput *= facet_weight(facet, vertex.cosine);
+    walker.throughput *= scattering_factor(material, vertex.cosine);
     int leaves = bounce == last;
     if (leaves)
       walker.throughput *= vertex.leave;

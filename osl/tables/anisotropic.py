@@ -38,21 +38,21 @@ STEPS = (10, 5)  # of the fit: with all views alike, and with those that fit wor
 FAINTEST = 1e-3  # energy of a view that shapes are fitted to
 
 POLYNOMIALS = (
-    Polynomial("energy, over stretched_cosine (Beckmann) or its root (GGX)", 7, 4, 0.0, 2.0),
-    Polynomial("microfacet lobe 1", 4, 4, 0.0, 9.0),
-    Polynomial("microfacet lobe 2", 4, 4, 0.0, 9.0),
-    Polynomial("ramp that is highest halfway up", 3, 4, 0.0, 9.0),
-    Polynomial("ramp that is highest at the pole", 3, 4, 0.0, 9.0),
-    Polynomial("tilt of lobe 1", 3, 3, -3.0, 4.0),
-    Polynomial("its alpha_x over the surface's", 3, 3, 0.15, 4.0),
-    Polynomial("its alpha_y over the surface's", 3, 3, 0.15, 4.0),
-    Polynomial("tilt of lobe 2", 3, 3, -3.0, 4.0),
-    Polynomial("its alpha_x over the surface's", 3, 3, 0.15, 4.0),
-    Polynomial("its alpha_y over the surface's", 3, 3, 0.15, 4.0),
-    Polynomial("share of bounce 2", 3, 4, 0.0, 1.0),
-    Polynomial("cosine at which Fresnel is its mean in bounce 2", 3, 4, 0.0, 1.0),
-    Polynomial("the same in further ones", 3, 4, 0.0, 1.0),
-    Polynomial("energy of bounces above 3 over that of all above 2", 2, 4, 0.0, 0.99),
+    Polynomial("ENERGY", "energy over stretched_cosine (Beckmann), its root (GGX)", 7, 4, 0.0, 2.0),
+    Polynomial("LOBE_1", "microfacet lobe 1", 4, 4, 0.0, 9.0),
+    Polynomial("LOBE_2", "microfacet lobe 2", 4, 4, 0.0, 9.0),
+    Polynomial("RAMP_HALFWAY", "ramp that is highest halfway up", 3, 4, 0.0, 9.0),
+    Polynomial("RAMP_POLE", "ramp that is highest at the pole", 3, 4, 0.0, 9.0),
+    Polynomial("TILT_1", "tilt of lobe 1", 3, 3, -3.0, 4.0),
+    Polynomial("WIDTH_X_1", "its alpha_x over the surface's", 3, 3, 0.15, 4.0),
+    Polynomial("WIDTH_Y_1", "its alpha_y over the surface's", 3, 3, 0.15, 4.0),
+    Polynomial("TILT_2", "tilt of lobe 2", 3, 3, -3.0, 4.0),
+    Polynomial("WIDTH_X_2", "its alpha_x over the surface's", 3, 3, 0.15, 4.0),
+    Polynomial("WIDTH_Y_2", "its alpha_y over the surface's", 3, 3, 0.15, 4.0),
+    Polynomial("SHARE_2", "share of bounce 2", 3, 4, 0.0, 1.0),
+    Polynomial("FRESNEL_2", "cosine at which Fresnel is its mean in bounce 2", 3, 4, 0.0, 1.0),
+    Polynomial("FRESNEL_LATER", "the same in later bounces", 3, 4, 0.0, 1.0),
+    Polynomial("REST", "energy of bounces above 3 over that of all above 2", 2, 4, 0.0, 0.99),
 )
 ENERGY, SHAPE, COLOUR = POLYNOMIALS[0], POLYNOMIALS[1:11], POLYNOMIALS[11:]
 # As many of a shape's parameters are factors of closures; the others are LOBE for each microfacet
@@ -258,8 +258,9 @@ def body(run: Run) -> tuple[list[str], str]:
     samples = [s for s in samples if s.resolved and s.energy > FAINTEST]
     parts = [(d, [s for s in samples if s.view.surface.distribution == d]) for d in DISTRIBUTIONS]
     found = run(fitted, parts, "anisotropic metal, fits")
-    layout = [(one.name, 1) for one in POLYNOMIALS]
-    comment = header.described("Anisotropic white metal, by variables from -1 to 1:", layout)
+    layout = [(one.name, one.meaning, 1) for one in POLYNOMIALS]
+    what = "Anisotropic white metal, by variables from -1 to 1:"
+    comment = header.columns(what, "ANISOTROPIC", layout)
     function = polynomial.function(
         "anisotropic_values", comment, POLYNOMIALS, [one[0] for one in found]
     )

@@ -38,20 +38,23 @@ INERTIA = 3e-6
 RELUCTANCE = 0.1
 
 LAYOUT = (
-    ("knots of bounce 2", KNOTS),
-    ("knots of further bounces", KNOTS),
-    ("weights of the microfacet lobe in bounce 2 and in further ones", 2),
-    ("its energy", 1),
-    ("sine of its mirror direction over the view's", 1),
-    ("its alphas over the surface's, in the plane of incidence and across it", 2),
+    ("RAMP_2", "knots of the ramp in bounce 2", KNOTS),
+    ("RAMP_LATER", "knots of the ramp in later bounces", KNOTS),
+    ("LOBE_2", "weight of the microfacet lobe in bounce 2", 1),
+    ("LOBE_LATER", "its weight in later bounces", 1),
+    ("LOBE_ENERGY", "its energy", 1),
+    ("LOBE_SINE", "sine of its mirror direction over the view's", 1),
+    ("LOBE_ALONG", "its alpha in the plane of incidence over the surface's", 1),
+    ("LOBE_ACROSS", "its alpha across that plane over the surface's", 1),
 )
 COLOUR_LAYOUT = (
-    ("energy of bounce 2 over that of all above 1", 1),
-    ("cosines at which Fresnel is its mean in bounce 2 and in further ones", 2),
-    ("energy of bounces above 3 over that of all above 2", 1),
-    ("part of the energy in the ramps", 1),
+    ("SHARE_2", "energy of bounce 2 over that of all above 1", 1),
+    ("FRESNEL_2", "cosine at which Fresnel is its mean in bounce 2", 1),
+    ("FRESNEL_LATER", "cosine at which Fresnel is its mean in later bounces", 1),
+    ("REST", "energy of bounces above 3 over that of all above 2", 1),
+    ("RAMP_PART", "part of the energy in the ramps", 1),
 )
-SHAPES, COLOURS = (sum(count for _, count in layout) for layout in (LAYOUT, COLOUR_LAYOUT))
+SHAPES, COLOURS = header.width(LAYOUT), header.width(COLOUR_LAYOUT)
 VALUES = SHAPES + COLOURS
 SHAPE = slice(2 * KNOTS + 3, 2 * KNOTS + 6)  # of the microfacet lobe
 
@@ -199,13 +202,13 @@ def body(run: Run) -> tuple[list[str], str]:
     shapes, energy, errors = tables(run)
     parts = [
         header.function(
-            "conductor_shape", header.described("White metal:", LAYOUT), shapes[..., :SHAPES]
+            "conductor_shape", header.columns("White metal:", "METAL", LAYOUT), shapes[..., :SHAPES]
         ),
         header.function(
             "conductor_colour",
-            header.described("Its further bounces:", COLOUR_LAYOUT),
+            header.columns("Its further bounces:", "METAL", COLOUR_LAYOUT),
             shapes[..., SHAPES:],
         ),
-        header.function("conductor_energy", "Energy of bounces 2 and above.", energy),
+        header.function("conductor_energy", "// Energy of bounces 2 and above.", energy),
     ]
     return header.provenance(SEED, WALKS, errors), "\n".join(parts)

@@ -50,21 +50,27 @@ STEEP_START = 0.25  # width over alpha
 INERTIA = 2e-3
 
 LAYOUT = (
-    ("root of the part of the further bounces that leaves into the lower index", 1),
-    ("part of that in the steep lobe", 1),
-    ("root of that lobe's weight for an energy of 1", 1),
-    ("its axis' angle from the normal, its half-width", 2),
-    ("part of what comes back in the microfacet lobe", 1),
-    ("root of that lobe's weight for an energy of 1", 1),
-    ("its normal's angle, its alpha", 2),
-    ("part of the light that each bounce after the first leaves for the next", 1),
+    ("ROOT_THINNER", "root of the further bounces' part that leaves into the lower index", 1),
+    ("STEEP_PART", "part of what goes through in the steep lobe", 1),
+    ("STEEP_ROOT", "root of that lobe's weight for an energy of 1", 1),
+    ("STEEP_TILT", "angle of its axis from the normal", 1),
+    ("STEEP_WIDTH", "its half-width", 1),
+    ("MIRROR_PART", "part of what comes back in the microfacet lobe", 1),
+    ("MIRROR_ROOT", "root of that lobe's weight for an energy of 1", 1),
+    ("MIRROR_TILT", "angle of its normal", 1),
+    ("MIRROR_ALPHA", "its alpha", 1),
+    ("REST", "part of the light that each bounce after the first leaves for the next", 1),
 )
-VALUES = sum(count for _, count in LAYOUT)
+VALUES = header.width(LAYOUT)
+MISSING_LAYOUT = (
+    ("ROOT_BEYOND_CYCLES", "root of what Cycles' glass, as sampled, leaves of white light", 1),
+    ("ROOT_BEYOND_FIRST", "root of what the first bounce leaves", 1),
+)
 
 FUNCTION = """\
 {comment}
 void {name}(int distribution, {side}float alpha, float cosine, float ior,
-            output float values[{count}])
+{indent}output float values[{count}])
 {{
   float table[{size}] = {{
 {rows}
@@ -285,7 +291,8 @@ def function(name: str, comment: str, table: np.ndarray, sides: int = 1) -> str:
     which = "(2 * inside + distribution)" if sides > 1 else "distribution"
     return FUNCTION.format(
         name=name,
-        comment="\n".join(f"// {line}" for line in comment.splitlines()),
+        indent=" " * len(f"void {name}("),
+        comment=comment,
         side="int inside, " if sides > 1 else "",
         count=values,
         size=table.size,
@@ -300,17 +307,15 @@ def function(name: str, comment: str, table: np.ndarray, sides: int = 1) -> str:
 def body(run: Run) -> tuple[list[str], str]:
     """What the header says about itself, and its functions."""
     values, errors = shapes(run)
-    missing = (
-        "Roots of what Cycles' own glass, as it is sampled, leaves of white light from {},\n"
-        "and what the first bounce leaves."
-    )
+    columns = header.columns("White glass:", "GLASS", LAYOUT)
+    missing = header.columns("Energies of white glass:", "GLASS", MISSING_LAYOUT)
     parts = [
         '#include "../include/table3.h"\n',
         header.array("plateau_knot", "Knots of a ramp of energy 1.", plateau()),
         header.constant("LOWEST_INDEX", LOWEST_INDEX)
         + header.constant("HIGHEST_INDEX", HIGHEST_INDEX),
-        function("dielectric_shape", header.described("White glass:", LAYOUT), values, sides=2),
-        function("dielectric_energy_outside", missing.format("outside"), energies(run, False)),
-        function("dielectric_energy_inside", missing.format("inside"), energies(run, True)),
+        function("dielectric_shape", columns, values, sides=2),
+        function("dielectric_energy_outside", missing, energies(run, False)),
+        function("dielectric_energy_inside", "// The same from inside.", energies(run, True)),
     ]
     return header.provenance(SEED, WALKS, errors), "\n".join(parts)

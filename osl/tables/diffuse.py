@@ -19,15 +19,17 @@ ALPHAS = COSINES = 12
 TILT = 0.3  # rad, of the axis
 
 LAYOUT = (
-    ("knots about the normal, bounce 1", KNOTS),
-    ("knots about the tilted axis", KNOTS),
-    ("factor of Oren and Nayar's lobe", 1),
-    ("the same of bounce 2", 2 * KNOTS + 1),
-    ("of further bounces: knots about the normal", KNOTS),
-    ("factor of Oren and Nayar's lobe", 1),
-    ("energy of bounces above 3 over that of all above 2", 1),
+    ("UPRIGHT_1", "knots of the ramp about the normal in bounce 1", KNOTS),
+    ("TILTED_1", "knots of the ramp about the tilted axis in bounce 1", KNOTS),
+    ("NAYAR_1", "factor of Oren and Nayar's lobe in bounce 1", 1),
+    ("UPRIGHT_2", "knots of the ramp about the normal in bounce 2", KNOTS),
+    ("TILTED_2", "knots of the ramp about the tilted axis in bounce 2", KNOTS),
+    ("NAYAR_2", "factor of Oren and Nayar's lobe in bounce 2", 1),
+    ("UPRIGHT_LATER", "knots of the ramp about the normal in later bounces", KNOTS),
+    ("NAYAR_LATER", "factor of Oren and Nayar's lobe in later bounces", 1),
+    ("REST", "energy of bounces above 3 over that of all above 2", 1),
 )
-VALUES = sum(count for _, count in LAYOUT)
+VALUES = header.width(LAYOUT)
 
 
 def tilted_axis() -> np.ndarray:
@@ -79,7 +81,7 @@ def body(run: Run) -> tuple[list[str], str]:
     knots = EXITS.energy(diffuse_ramp(EXITS.o, tilted_axis()))
     parts = [
         header.constant("DIFFUSE_TILT", TILT),
-        header.function("diffuse_shape", header.described("A white surface:", LAYOUT), values),
+        header.function("diffuse_shape", header.columns("White matte:", "MATTE", LAYOUT), values),
         header.array("tilted_knot_energy", "Energy of a knot of the tilted ramp.", knots),
     ]
     return about, "\n".join(parts)

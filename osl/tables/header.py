@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The text of a header that holds a table: a function that interpolates in it."""
 
+import ast
 import hashlib
+import io
+import tokenize
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -41,23 +44,38 @@ void {name}({distribution}float alpha, float cosine, output float values[{count}
 
 
 def stamp(sources: Iterable[Path]) -> str:
-    """What tells whether a header is older than the sources it was made from."""
+    """A digest of the code that a header was made from, without its comments and docstrings."""
     digest = hashlib.sha256()
     for source in sources:
-        digest.update(source.read_bytes())
+        digest.update(code(source.read_text("utf-8")).encode())
     return digest.hexdigest()[:16]
+
+
+def code(text: str) -> str:
+    """Python source without comments, docstrings and blank lines."""
+    lines = text.splitlines()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column]
+    for node in ast.walk(ast.parse(text)):
+        documented = ast.Module | ast.ClassDef | ast.FunctionDef
+        if isinstance(node, documented) and ast.get_docstring(node) is not None:
+            first, last = node.body[0].lineno, node.body[0].end_lineno
+            lines[first - 1 : last] = [""] * (last - first + 1)
+    return "\n".join(line.rstrip() for line in lines if line.strip())
 
 
 def function(name: str, comment: str, table: np.ndarray) -> str:
     """A function that interpolates in ``table`` ``(distributions, alphas, cosines, values)``, GGX
-    first. Raises ValueError where a value is not finite."""
+    first. ``comment``: the lines above it. Raises ValueError if a value is not finite."""
     if not np.isfinite(table).all():
         raise ValueError(f"{name}: {np.count_nonzero(~np.isfinite(table))} values are not finite")
     distributions, alphas, cosines, count = table.shape
     several = distributions > 1
     return FUNCTION.format(
         name=name,
-        comment="\n".join(f"// {line}" for line in comment.splitlines()),
+        comment=comment,
         distribution="int distribution, " if several else "",
         first=f"distribution * {alphas * cosines}" if several else "0",
         count=count,
@@ -82,13 +100,19 @@ def constant(name: str, value: float) -> str:
     return f"#define {name} {value:g}\n"
 
 
-def described(what: str, layout: Sequence[tuple[str, int]]) -> str:
-    """The comment that says what the values of a table are: their names and counts."""
-    start, lines = 0, [what]
-    for text, count in layout:
-        lines.append(f"{start if count == 1 else f'{start}-{start + count - 1}'}: {text}")
+def columns(what: str, prefix: str, layout: Sequence[tuple[str, str, int]]) -> str:
+    """The lines that name a table's columns: each has a name, a meaning and a count of values."""
+    start, lines = 0, [f"// {what}"]
+    for name, meaning, count in layout:
+        several = f"{count} " if count > 1 else ""
+        lines.append(f"#define {prefix}_{name} {start}  // {several}{meaning}")
         start += count
     return "\n".join(lines)
+
+
+def width(layout: Sequence[tuple[str, str, int]]) -> int:
+    """How many values a row of a table has."""
+    return sum(count for _, _, count in layout)
 
 
 def provenance(seed: int, walks: int, errors: np.ndarray) -> list[str]:

@@ -20,6 +20,7 @@ class Polynomial:
     """A polynomial of the first ``variables``, and the limits of its value."""
 
     name: str
+    meaning: str
     degree: int
     variables: int
     low: float
@@ -124,7 +125,7 @@ def function(
     return FUNCTION.format(
         name=name,
         indent=" " * len(f"void {name}("),
-        comment="\n".join(f"// {line}" for line in comment.splitlines()),
+        comment=comment,
         count=len(polynomials),
         products="\n".join(_vectors("x0", "x1", degree) + _products("b", "x2", "x3", degree)),
         first=first,

@@ -49,9 +49,9 @@ class Change:
 
 _ANY_FRAME = "  if (surface.isotropic)\n    return any_frame(z);\n"
 _ASKED = "  if (!is_left_alone(z, view, Ng))\n    z = corrected"
-_UNSEEN = "    if (!is_seen())\n      return unseen_conductor(frame, surface, facet, further);\n"
+_UNSEEN = "    if (!is_seen())\n      return unseen_conductor(frame, surface, material, further);\n"
 _STRETCHED = "vector w = arrival.stretched;"
-_ONE_WALK = 'int one_walk = fitted || !raytype("camera");'
+_ONE_WALK = 'is_one_walk(accuracy, fitted || !raytype("camera"))'
 
 CHANGES = (
     Change("metal that is not seen has two closures instead of three", "metal", "Fitted",
@@ -66,13 +66,13 @@ CHANGES = (
     Change("the stretched view is computed once a vertex", "metal", "Walk",
            ((_STRETCHED, "vector w = normalize(stretch(surface, arrival.v));"),)),
     Change("glass that the camera does not see takes one walk", "glass 0.5", "Fitted",
-           ((_ONE_WALK, "int one_walk = 0;"), ("if (fitted && is_seen())", "if (fitted)"))),
+           ((_ONE_WALK, "is_one_walk(accuracy, 0)"), ("if (fitted && is_seen())", "if (fitted)"))),
     Change("glass up to alpha 0.3 has Cycles' refraction and no facets", "glass 0.5", "Fitted",
            (("#define WIDEST_WHOLE_GGX 0.3", "#define WIDEST_WHOLE_GGX 0"),)),
     Change("rougher glass has 5 facets instead of 10", "glass 0.7", "Fitted",
            (("#define FITTED_FACETS 5", "#define FITTED_FACETS 10"),)),
     Change("glass that the camera does not see takes one walk", "glass 0.5", "Walk",
-           ((_ONE_WALK, "int one_walk = 0;"),)),
+           ((_ONE_WALK, "is_one_walk(accuracy, 0)"),)),
 )  # fmt: skip
 
 

@@ -18,12 +18,12 @@ PATCHES = {
     # Every bounce of one walk, as where the camera does not look, but with the kernel of Walk.
     "whole walk": (
         (
-            "int one = accuracy.quality == 3 || (accuracy.quality > 0 && one_walk);",
-            "int one = accuracy.quality > 0;",
+            "accuracy.quality == QUALITY_EXACT || (accuracy.quality > QUALITY_SINGLE && one_walk)",
+            "accuracy.quality > QUALITY_SINGLE",
         ),
         (
-            "smooth_exit(frame, surface, facet, kernel, relative,",
-            "smooth_exit(frame, surface, facet, accuracy.kernel, KERNEL_PER_ALPHA,",
+            "smooth_exit(frame, surface, material, kernel, relative,",
+            "smooth_exit(frame, surface, material, accuracy.kernel, KERNEL_PER_ALPHA,",
         ),
     ),
 }
