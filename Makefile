@@ -7,19 +7,22 @@ SHELL := bash
 # `make test PYTEST_ARGS="-k furnace -x"` hands options to pytest, TESTS= chooses a folder or file.
 TESTS ?= blender_tests
 PYTEST_ARGS ?=
+# `make test-mutants MUTANTS=tilt` tries those with that word in their name.
+MUTANTS ?=
 # `make bench BENCH_ARGS="--trial --output build/trial"`; `--help` lists them.
 BENCH_ARGS ?=
 
 any = python="$$(tools/environment.sh any)" && "$$python"
 on_5.2 = python="$$(tools/environment.sh 5.2)" && "$$python"
 on_4.5 = python="$$(tools/environment.sh 4.5)" && "$$python"
-pytest = -m pytest $(TESTS) $(PYTEST_ARGS)
+pytest = -m pytest -n auto --maxprocesses 4 --dist loadfile $(TESTS) $(PYTEST_ARGS)
 
 # Two targets at once would both make the same virtual environment.
 .NOTPARALLEL:
 
 # The folders osl, addon and scenes would otherwise pass for targets that are up to date.
-.PHONY: help demo demo-picture materials-picture analysis-demo test test-all test-5.2 test-4.5 test-window window-pictures lint \
+.PHONY: help demo demo-picture materials-picture analysis-demo test test-all test-5.2 test-4.5 test-nightly \
+        test-mutants test-window window-pictures lint \
         format addon assets previews references figures tables scenes bench bench-check gains clean
 
 help: ## List the targets
@@ -37,17 +40,29 @@ materials-picture: ## Render the metal, glass and clay of the README (docs/mater
 analysis-demo: ## Render twenty materials all in Walk, all Fitted and as analysed; time and error
 	@$(any) -m scenes.mixed_demo
 
-test: ## Run every test on one Blender version (5.2, or 4.5 where only Python 3.11 is there)
+test: ## Run the fast tier of the tests on one Blender version (under ten minutes on two cores)
 	@$(any) $(pytest)
 
-test-all: ## Run every test on Blender 5.2 and on 4.5
-	@tools/test_all.sh $(TESTS) $(PYTEST_ARGS)
+test-all: ## Run the fast tier on Blender 5.2 and on 4.5
+	@$(on_5.2) $(pytest)
+	@$(on_4.5) $(pytest)
 
-test-5.2: ## Run every test on Blender 5.2
+test-5.2: ## Run the fast tier on Blender 5.2
 	@$(on_5.2) $(pytest)
 
-test-4.5: ## Run every test on Blender 4.5
+test-4.5: ## Run the fast tier on Blender 4.5
 	@$(on_4.5) $(pytest)
+
+# What takes times runs last, alone. Exit status 5 says that TESTS holds nothing of that kind.
+test-nightly: ## Run every test on both Blender versions (about an hour on two idle cores)
+	@status=0; for version in 5.2 4.5; do \
+	  python="$$(tools/environment.sh $$version)" || exit 1; \
+	  "$$python" $(pytest) --nightly -m "not timing" || status=1; \
+	  "$$python" -m pytest $(TESTS) --nightly -m timing || [ $$? -eq 5 ] || status=1; \
+	done; exit $$status
+
+test-mutants: ## Break the code in one place at a time; the fast tier has to notice each
+	@$(any) -m blender_tests.mutants $(MUTANTS)
 
 test-window: ## Use the zip in the window of a real Blender: BLENDER=command, or blender on PATH
 	@$(any) -m tools.window test

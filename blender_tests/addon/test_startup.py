@@ -35,6 +35,7 @@ def measure(folder, cold=False):
     return run_blender(script, folder)
 
 
+@pytest.mark.nightly
 @pytest.mark.timing
 def test_enabling_takes_less_than_50_ms(tmp_path, report):
     measure(tmp_path)  # writes the byte code

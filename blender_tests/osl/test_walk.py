@@ -67,6 +67,7 @@ def agree(found: np.ndarray, wanted: np.ndarray) -> None:
     assert np.all(np.abs(found.mean(axis=0) - wanted.mean(axis=0)) < 4.5 * error + 1e-6)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("theta", [0.2, 1.2])
 def test_chosen_vertices_carry_the_kept_energy(theta: float) -> None:
     """Weighted by `kept`, the directions of the vertices chosen among candidates have the moments

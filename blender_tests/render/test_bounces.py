@@ -9,6 +9,8 @@ from osl.oracle.surface import CORRELATED, GGX, HEIGHT_TRACKED, UNCORRELATED
 from scenes import pictures
 from scenes.pictures import Widths
 
+pytestmark = pytest.mark.nightly
+
 MATERIALS = {"CONDUCTOR": Conductor(), "DIELECTRIC": Dielectric(1.5), "DIFFUSE": Diffuse()}
 MODELS = {
     "height-correlated": CORRELATED,

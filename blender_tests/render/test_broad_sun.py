@@ -15,6 +15,8 @@ from osl.oracle.walk import bounces
 from scenes import pictures
 from scenes.pictures import Widths
 
+pytestmark = pytest.mark.nightly
+
 SIZE = 32
 ANGLE = 0.5  # rad across
 SAMPLES = 1024

@@ -15,9 +15,9 @@ from scenes import pictures
 from scenes.pictures import Widths
 from scenes.references import CASES, SAMPLES, SAMPLES_OF_WIDE_REFRACTIONS, Case
 
+pytestmark = pytest.mark.nightly
+
 SAMPLES_OF_FIRST_BOUNCES = 48
-# From so many on one Blender version is enough.
-LONG = 256
 LIMITS = {"CONDUCTOR": 0.05, "DIELECTRIC": 0.05, "DIFFUSE": 0.03}
 # Of refraction by a surface whose narrower alpha is below 0.3: Cycles' refraction is isotropic, so
 # that its lobes are as wide one way as the other.
@@ -41,23 +41,12 @@ FIRST_BOUNCES = [
 ]
 
 
-@pytest.mark.parametrize(
-    "case",
-    [
-        pytest.param(
-            case,
-            id=case.reference,
-            marks=[pytest.mark.once] if case.samples >= LONG else [],
-        )
-        for case in CASES
-    ],
-)
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.reference)
 def test_walk(case: Case, report) -> None:
     """All bounces."""
     _hold("Walk", case, "mean", case.samples, limit_of(case), report)
 
 
-@pytest.mark.once
 @pytest.mark.parametrize("case", FIRST_BOUNCES, ids=lambda case: case.reference)
 def test_first_bounce(case: Case, report) -> None:
     """Bounce 1 alone against the oracle's own, which is no promise: 5 % for all materials."""

@@ -11,7 +11,7 @@ from addon.material.node import new_material
 from scenes import pictures, variants
 from tools.timing import SampleTimes, time_samples
 
-pytestmark = pytest.mark.timing
+pytestmark = [pytest.mark.nightly, pytest.mark.timing]
 
 ROUNDS = 5
 PERCENTAGE = 35  # of the showcase's width and height

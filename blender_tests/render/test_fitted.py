@@ -16,6 +16,8 @@ from scenes.pictures import WHITE, Widths
 from .test_converged import CLAY
 from .test_sphere_sun import COLOURED
 
+pytestmark = pytest.mark.nightly
+
 ALPHAS = (0.1, 0.25, 0.5, 0.75, 1.0)
 DISTRIBUTIONS = ("GGX", "Beckmann")
 LIMIT_OF_METAL = LIMIT_OF_MATTE = 0.02

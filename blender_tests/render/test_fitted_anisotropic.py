@@ -16,6 +16,8 @@ from scenes.pictures import WHITE, Widths
 
 from .test_fitted import LARGEST_NOISE_RATIO, hold_noise
 
+pytestmark = pytest.mark.nightly
+
 DISTRIBUTIONS = ("GGX", "Beckmann")
 GOLD_INPUTS = {"BaseColor": (0.95, 0.75, 0.35), "EdgeTint": (0.98, 0.95, 0.75)}
 LIMIT = 0.05

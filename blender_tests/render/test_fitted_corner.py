@@ -16,6 +16,8 @@ from scenes.pictures import WHITE, Widths
 
 from .test_fitted_anisotropic import GOLD_INPUTS
 
+pytestmark = pytest.mark.nightly
+
 SIZE = 40
 BOUNCES = 32  # between the squares
 SURFACES = [("GGX", (0.5, 0.5)), ("GGX", (1, 1)), ("Beckmann", (1, 1)), ("GGX", (1, 0.1))]

@@ -23,6 +23,8 @@ from scenes.references import Case
 
 from .test_fitted import LARGEST_NOISE_RATIO, hold_noise
 
+pytestmark = pytest.mark.nightly
+
 LIMIT = 0.04
 # Where that is not reached: no few closures have the shape of what GGX of alpha 1 sends through
 # after several bounces, or of what rough glass sends out, which avoids the normal.
@@ -136,7 +138,6 @@ def test_solid_sphere(distribution: str, alpha: float, report) -> None:
     assert abs(means["Fitted"] - 1.0) < 0.01
 
 
-@pytest.mark.once
 @pytest.mark.parametrize("sun", [fixtures.FRONT_SUN, fixtures.BACK_SUN], ids=["front", "back"])
 @pytest.mark.parametrize("alpha", [0.25, 1.0])
 def test_solid_sphere_under_a_wide_sun(alpha: float, sun: tuple, report) -> None:

@@ -14,6 +14,8 @@ from osl.oracle.sphere import sphere_points
 from scenes import fixtures, pictures, variants
 from scenes.pictures import Widths
 
+pytestmark = pytest.mark.nightly
+
 SIZE = 40
 MASK = sphere_points(SIZE, 1)[1]
 ROUGH = Widths(1.0, 1.0)
@@ -47,7 +49,6 @@ def test_opaque(kind: str, quality: str, distribution: str, widths: Widths, repo
     _hold(name, _open(kind), quality, report, Distribution=distribution, **widths.inputs)
 
 
-@pytest.mark.once
 @by_quality
 @by_distribution
 @by_widths
@@ -69,7 +70,6 @@ def test_opaque_fitted(kind: str, alpha: float, distribution: str, report) -> No
     _hold(name, _open(kind), "Fitted", report, **values)
 
 
-@pytest.mark.once
 @by_side
 @pytest.mark.parametrize("ior", [1.1, 2.4])
 def test_exact_glass_of_other_indices(ior: float, inside: bool, report) -> None:
@@ -82,7 +82,6 @@ def test_exact_glass_of_other_indices(ior: float, inside: bool, report) -> None:
             _hold(name, glass, "Exact", report, **values)
 
 
-@pytest.mark.once
 @by_side
 @pytest.mark.parametrize("widths", [Widths(0.5, 0.5), ROUGH], ids=lambda widths: widths.name)
 @pytest.mark.parametrize("ior", [1.1, 2.4])

@@ -13,8 +13,6 @@ from addon.core.parameters import CONDUCTOR
 from addon.material.node import new_material
 from scenes import common, pictures
 
-pytestmark = pytest.mark.once
-
 NUMBERS = [float("nan"), float("inf"), float("-inf"), -1.0, 2.0, 1e30, -1e30, 0.0]
 VECTORS = [
     (0.0, 0.0, 0.0),
@@ -65,7 +63,12 @@ def assert_sound(image: np.ndarray) -> None:
 @pytest.mark.parametrize(
     ("parameter", "quality"),
     [
-        pytest.param(parameter, quality, id=f"{parameter.identifier}-{quality}")
+        pytest.param(
+            parameter,
+            quality,
+            id=f"{parameter.identifier}-{quality}",
+            marks=[] if quality == "Fitted" else pytest.mark.nightly,
+        )
         for parameter in CONDUCTOR
         for quality in QUALITIES
         # Single has no second bounce to show alone.

@@ -14,6 +14,8 @@ from osl.oracle.vectors import direction
 from scenes import pictures
 from scenes.pictures import WHITE, Widths
 
+pytestmark = pytest.mark.nightly
+
 SCENE = "sphere_sun_conductor"
 LIMITS = {
     Widths(0.25, 0.25): 0.02,
@@ -67,7 +69,6 @@ def test_single_ggx_is_unbiased(report) -> None:
     assert np.abs(z).max() < 4.5
 
 
-@pytest.mark.once
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 @pytest.mark.parametrize("widths", LIMITS, ids=IDS)
 def test_walk(distribution: str, widths: Widths, report) -> None:
@@ -79,7 +80,6 @@ def test_walk(distribution: str, widths: Widths, report) -> None:
     _hold(f"sun, Walk, {distribution} {widths.name}", found, wanted, LIMITS[widths], report)
 
 
-@pytest.mark.once
 @pytest.mark.parametrize("name", COLOURED)
 def test_walk_of_coloured_metals(name: str, report) -> None:
     """Each bounce takes its own Fresnel factor: hue and saturation are the oracle's."""

@@ -17,6 +17,7 @@ COUNT, SIZE = 6, (48, 32)
 TOLERANCE = 0.03
 
 
+@pytest.mark.nightly
 def test_the_measured_error_is_within_the_tolerance(report) -> None:
     """That of the converged picture against Exact, of two renders each; so is what is predicted."""
     mixed.build(COUNT, SIZE)
@@ -36,6 +37,7 @@ def test_the_measured_error_is_within_the_tolerance(report) -> None:
     assert lost > TOLERANCE
 
 
+@pytest.mark.nightly
 @pytest.mark.timing
 def test_it_takes_less_time_than_walk(report) -> None:
     """Of the processor's, for a whole render with its start; the first render is at a disadvantage,

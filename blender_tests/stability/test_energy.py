@@ -18,6 +18,8 @@ from scenes.pictures import Widths
 
 from .linked import linked_material, set_attribute
 
+pytestmark = pytest.mark.nightly
+
 ALPHAS = [Widths(a, a) for a in (1e-4, 0.1, 0.5, 1.0)] + [Widths(1.0, 0.1)]
 DISTRIBUTIONS = ("GGX", "Beckmann")
 MODELS = ("height-correlated", "height-uncorrelated", "height-tracked")

@@ -26,6 +26,7 @@ def test_errors_are_todays(kind: str, distribution: str, alpha: float, step: str
     assert stored == pytest.approx(pictures.measured(case, step), rel=0.15, abs=0.001), REMEDY
 
 
+@pytest.mark.nightly
 @pytest.mark.timing
 def test_costs_are_todays() -> None:
     """Within a third of metal at alpha 0.25, of one short round."""

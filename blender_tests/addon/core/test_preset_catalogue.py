@@ -201,6 +201,7 @@ def test_a_rendered_matte_preset_has_the_measured_albedo(name, tmp_path):
     assert pixels[:3] / pixels[3] == pytest.approx(measured, rel=0.015)
 
 
+@pytest.mark.nightly
 @pytest.mark.timing
 def test_all_are_read_in_little_more_time_than_their_toml(report):
     """Least of the processor's times of interleaved rounds, which say nothing of the machine."""

@@ -106,6 +106,7 @@ def test_findings_end_with_the_registration(osl_scene):
     addon.register()
 
 
+@pytest.mark.nightly
 @pytest.mark.timing
 def test_it_is_quick(osl_scene, report):
     """A third of it is reading the bytecode of three kinds, 3 MB, to see that it is there."""

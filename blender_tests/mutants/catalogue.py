@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The faults that the fast tier has to notice, each a small edit of one file."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One fault.
+
+    name  -- what is broken, in words
+    path  -- the file, from the root of the repository
+    old   -- text that occurs once in it
+    new   -- what takes its place
+    tests -- files or names of tests that are expected to notice; pytest's arguments
+    """
+
+    name: str
+    path: str
+    old: str
+    new: str
+    tests: tuple[str, ...]
+
+    def apply(self, text: str) -> str:
+        """Return the file's text with the fault; raises ValueError unless `old` occurs once."""
+        if text.count(self.old) != 1:
+            raise ValueError(
+                f"{self.path} has {text.count(self.old)} times {self.old!r}, which the mutant "
+                f"'{self.name}' replaces: write it as it is now"
+            )
+        return text.replace(self.old, self.new)
+
+
+_PICTURES = ("blender_tests/render/test_pictures.py",)
+_OSL = ("blender_tests/osl",)
+_ORACLE = ("blender_tests/oracle",)
+
+
+def _addon(*files: str) -> tuple[str, ...]:
+    return tuple(f"blender_tests/addon/{file}" for file in files)
+
+
+_SHADERS = [
+    Mutant(
+        "anisotropic lobe tilts away from the viewer",
+        "osl/include/fitted_anisotropic.h",
+        "float steep = stretched_cosine(s) / s[2];",
+        "float steep = -stretched_cosine(s) / s[2];",
+        _PICTURES,
+    ),
+    Mutant(
+        "anisotropic lobe stretched by the other alpha",
+        "osl/include/fitted_anisotropic.h",
+        "steep * vector(surface.alpha_x * s[0], surface.alpha_y * s[1], 0)",
+        "steep * vector(surface.alpha_y * s[0], surface.alpha_x * s[1], 0)",
+        _PICTURES,
+    ),
+    Mutant(
+        "table axes swapped",
+        "osl/include/table.h",
+        "first + i * cosines + j",
+        "first + j * cosines + i",
+        _OSL,
+    ),
+    Mutant(
+        "table cell on the wrong side of its diagonal",
+        "osl/include/table.h",
+        "((s > t) ? cosines : 1)",
+        "((s > t) ? 1 : cosines)",
+        _OSL,
+    ),
+    Mutant(
+        "refraction forgets what the facets add",
+        "osl/include/refraction.h",
+        "float rest = sent[i] * (leave[i] - part * carried[i]);",
+        "float rest = 0;",
+        _PICTURES,
+    ),
+    Mutant(
+        "refraction's facets count twice",
+        "osl/include/refraction.h",
+        "facet.tint * (rest / facets)",
+        "facet.tint * (2 * rest / facets)",
+        _PICTURES,
+    ),
+    Mutant(
+        "Schlick's exponent is 4",
+        "osl/include/fresnel.h",
+        "float s5 = s * s * s * s * s;",
+        "float s5 = s * s * s * s;",
+        _OSL,
+    ),
+    Mutant(
+        "glass reflects p-polarised light as s-polarised",
+        "osl/include/fresnel.h",
+        "return min(0.5 * (s * s + p * p), 1);",
+        "return min(s * s, 1);",
+        _OSL,
+    ),
+    Mutant(
+        "the chance to leave counts shadowing once",
+        "osl/include/smith.h",
+        "return (stays > 0) ? leaves / (leaves + stays) : 1;",
+        "return o[2] / (o[2] + excess);",
+        _OSL,
+    ),
+    Mutant(
+        "GGX's caps keep their width below the horizon",
+        "osl/include/visible.h",
+        "float width = (w[2] >= 0) ? 1 + w[2] :",
+        "float width = (w[2] >= 0) ? 1 :",
+        _OSL,
+    ),
+    Mutant(
+        "light inside glass sees the index upside down",
+        "osl/include/material.h",
+        "return below ? 1 / material.ior : material.ior;",
+        "return below ? material.ior : 1 / material.ior;",
+        _PICTURES,
+    ),
+    Mutant(
+        "a mean Fresnel factor with exponent 4",
+        "osl/include/fitted.h",
+        "min(s2 * s2 * s, 1)",
+        "min(s2 * s2, 1)",
+        _PICTURES,
+    ),
+    Mutant(
+        "a series of bounces without its first weight",
+        "osl/include/fitted.h",
+        "return ((1 - rest) / (1 - kept)) * (1 - beyond);",
+        "return (1 - rest) * (1 - beyond);",
+        _PICTURES,
+    ),
+    Mutant(
+        "Exact smooths its exits",
+        "osl/include/closures.h",
+        "if (accuracy.quality == QUALITY_EXACT)",
+        "if (accuracy.quality > QUALITY_EXACT)",
+        _PICTURES,
+    ),
+    Mutant(
+        "walks lose the weight of their candidates",
+        "osl/include/walk.h",
+        "kept /= candidates;",
+        "kept = 1;",
+        _PICTURES,
+    ),
+    Mutant(
+        "a path that crosses stays on its side",
+        "osl/include/walk.h",
+        "next.below = walker.below != vertex.crossed;",
+        "next.below = walker.below;",
+        _PICTURES,
+    ),
+    Mutant(
+        "the matte lobe tilts away from the viewer",
+        "osl/include/fitted_diffuse.h",
+        "sin(DIFFUSE_TILT) * side",
+        "-sin(DIFFUSE_TILT) * side",
+        _PICTURES,
+    ),
+    Mutant(
+        "glass sends its further light to the wrong side",
+        "osl/include/fitted_dielectric.h",
+        "color back = inside ? further - thinner : thinner;",
+        "color back = inside ? thinner : further - thinner;",
+        _PICTURES,
+    ),
+    Mutant(
+        "a NaN reaches the closures",
+        "osl/include/inputs.h",
+        "accuracy.kernel = legal(kernel, 0.05, 1, 0.3);",
+        "accuracy.kernel = kernel;",
+        ("blender_tests/stability", "blender_tests/osl", "blender_tests/render"),
+    ),
+    Mutant(
+        "GGX and Beckmann change places",
+        "osl/include/inputs.h",
+        "surface.beckmann = distribution == 1;",
+        "surface.beckmann = distribution != 1;",
+        _PICTURES,
+    ),
+]
+
+_ADDON = [
+    Mutant(
+        "a socket of Principled goes to its neighbour",
+        "addon/convert/principled.py",
+        'Rotation="Anisotropic Rotation"',
+        'Rotation="Anisotropic"',
+        _addon("convert"),
+    ),
+    Mutant(
+        "conversion loses links",
+        "addon/convert/replace.py",
+        "_link(tree, source, targets[other], link.is_muted)",
+        "pass",
+        _addon("convert"),
+    ),
+    Mutant(
+        "conversion loses animation",
+        "addon/convert/replace.py",
+        "move_curves(curves, list(inputs), new, made.carried)",
+        "pass",
+        _addon("convert"),
+    ),
+    Mutant(
+        "glass takes its colour unrooted",
+        "addon/convert/principled.py",
+        '_ROOT = Formula((Operation("GAMMA", 0.5),))',
+        '_ROOT = Formula((Operation("GAMMA", 1.0),))',
+        _addon("convert"),
+    ),
+    Mutant(
+        "check ends well whatever it found",
+        "addon/command/check.py",
+        "return 1 if found else 0",
+        "return 0",
+        _addon("command"),
+    ),
+    Mutant(
+        "files are saved without --save",
+        "addon/command/files.py",
+        "if arguments.save_as is None and not arguments.save:",
+        "if arguments.save_as is None and arguments.save is None:",
+        _addon("command"),
+    ),
+    Mutant(
+        "a group's stamp forgets the shader",
+        "addon/material/group.py",
+        "hashlib.sha256(source",
+        "hashlib.sha256(source[:0]",
+        _addon("material"),
+    ),
+    Mutant(
+        "an update loses values",
+        "addon/material/update.py",
+        "if name in values:",
+        "if name not in values:",
+        _addon("material"),
+    ),
+    Mutant(
+        "an update loses muted links",
+        "addon/material/update.py",
+        "tree.links.new(source, inputs[name]).is_muted = muted",
+        "tree.links.new(source, inputs[name])",
+        _addon("material"),
+    ),
+    Mutant(
+        "the farm check misses missing bytecode",
+        "addon/farm/shaders.py",
+        "if not script.bytecode:",
+        "if script.bytecode is None:",
+        _addon("farm"),
+    ),
+    Mutant(
+        "the fallback's matte takes our roughness",
+        "addon/material/fallback.py",
+        "roughness.inputs[1].default_value = MATTE_ROUGHNESS",
+        "roughness.inputs[1].default_value = 1.0",
+        _addon("material"),
+    ),
+    Mutant(
+        "the cost tool counts noise as bias",
+        "addon/core/cost/statistics.py",
+        "bias_square = float(np.mean(to_first * to_second) - same) / ordered_pairs",
+        "bias_square = float(np.mean(to_first * to_second)) / ordered_pairs",
+        _addon("core"),
+    ),
+    Mutant(
+        "the analysis takes roughness for alpha",
+        "addon/core/analysis/prediction.py",
+        "roughness * roughness / (1.0",
+        "roughness / (1.0",
+        _addon("core"),
+    ),
+]
+
+_SOURCES = [
+    Mutant(
+        "the oracle's F82 has its dip elsewhere",
+        "osl/oracle/fresnel.py",
+        "COS_82 = 1.0 / 7.0",
+        "COS_82 = 1.0 / 6.0",
+        _ORACLE,
+    ),
+]
+
+MUTANTS = [*_SHADERS, *_ADDON, *_SOURCES]
