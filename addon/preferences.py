@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import bpy
 
 from .core.analysis.picture_error import DEFAULT_TOLERANCE
-from .core.kinds import KINDS
+from .core.parameters import SHARED
 
 # The extension's package, under which Blender keeps its preferences; in tests it is "addon".
 _PACKAGE = __package__
 
 # One for all kinds of material.
-_QUALITY = KINDS["CONDUCTOR"].by_identifier["Quality"]
+_QUALITY = SHARED["Quality"]
 _DEFAULT_QUALITY = _QUALITY.choices[_QUALITY.default]
 
 

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Microfacet distributions and the light of further bounces, on native nodes and on ours."""
 
-from ..core.kinds import KINDS
+from ..core.parameters import SHARED
 from .state import State
 from .translation import NotConvertibleError, Translation, need_fixed
 
-_CONDUCTOR = KINDS["CONDUCTOR"].by_identifier
-_SINGLE = _CONDUCTOR["Quality"].checked("Single")
-_FITTED = _CONDUCTOR["Quality"].checked("Fitted")
-_GGX = _CONDUCTOR["Distribution"].checked("GGX")
-_BECKMANN = _CONDUCTOR["Distribution"].checked("Beckmann")
+_SINGLE = SHARED["Quality"].checked("Single")
+_FITTED = SHARED["Quality"].checked("Fitted")
+_GGX = SHARED["Distribution"].checked("GGX")
+_BECKMANN = SHARED["Distribution"].checked("Beckmann")
 
 # Above these, the mean colour with Multiscatter GGX differs from ours by 2 % or more.
 _VISIBLE_GLASS, _VISIBLE_METAL = 0.35, 0.7

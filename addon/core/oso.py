@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from .parameter import Parameter
 
-_KIND_TYPES = {
+_OSL_TYPES = {
     "COLOR": ("color",),
     "FLOAT": ("float",),
     "INT": ("int",),
@@ -75,10 +75,10 @@ def check_against(parameters: tuple[Parameter, ...], bytecode: str) -> None:
             "Reinstall the extension"
         )
     for (name, type_name), parameter in zip(declared, parameters, strict=True):
-        if type_name not in _KIND_TYPES[parameter.kind]:
+        if type_name not in _OSL_TYPES[parameter.type]:
             raise ValueError(
                 f"The shader declares {name} as {type_name}; the extension expects "
-                f"{' or '.join(_KIND_TYPES[parameter.kind])}. Reinstall the extension"
+                f"{' or '.join(_OSL_TYPES[parameter.type])}. Reinstall the extension"
             )
 
 

@@ -4,8 +4,8 @@
 from dataclasses import dataclass
 from numbers import Integral, Real
 
-KINDS = ("COLOR", "FLOAT", "INT", "VECTOR", "NORMAL", "TANGENT")
-VECTOR_KINDS = ("COLOR", "VECTOR", "NORMAL", "TANGENT")
+TYPES = ("COLOR", "FLOAT", "INT", "VECTOR", "NORMAL", "TANGENT")
+VECTOR_TYPES = ("COLOR", "VECTOR", "NORMAL", "TANGENT")
 
 Value = float | int | tuple[float, float, float]
 
@@ -16,7 +16,7 @@ class Parameter:
 
     identifier -- its name in the OSL shader
     label      -- its name on the node, as on Cycles' own node where that has it
-    kind       -- one of KINDS
+    type       -- one of TYPES
     default    -- a number, or three numbers; zero for NORMAL and TANGENT means "the surface's own"
     legal      -- smallest and largest value accepted; the node's limits
     useful     -- the range in which the parameter makes a visible, plausible difference
@@ -28,7 +28,7 @@ class Parameter:
 
     identifier: str
     label: str
-    kind: str
+    type: str
     default: Value
     legal: tuple[float, float]
     useful: tuple[float, float]
@@ -38,8 +38,8 @@ class Parameter:
     panel: str = ""
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise ValueError(f"{self.identifier}: kind {self.kind!r} is not one of {KINDS}")
+        if self.type not in TYPES:
+            raise ValueError(f"{self.identifier}: type {self.type!r} is not one of {TYPES}")
         if self.choices and self.legal != (0, len(self.choices) - 1):
             raise ValueError(f"{self.identifier}: {len(self.choices)} choices, legal {self.legal}")
         self.checked(self.default)
@@ -47,7 +47,7 @@ class Parameter:
     @property
     def is_vector(self) -> bool:
         """True where a value is three numbers."""
-        return self.kind in VECTOR_KINDS
+        return self.type in VECTOR_TYPES
 
     def checked(self, value: object) -> Value:
         """Return `value` in the form of this parameter: int, float, or a tuple of three floats.
@@ -62,18 +62,18 @@ class Parameter:
             return names.index(value.lower())
         if self.is_vector:
             return self._checked_vector(value)
-        wanted = Integral if self.kind == "INT" else Real
+        wanted = Integral if self.type == "INT" else Real
         if not isinstance(value, wanted):
-            noun = "a whole number" if self.kind == "INT" else "a number"
+            noun = "a whole number" if self.type == "INT" else "a number"
             raise TypeError(f"{self.identifier} is {value!r}: give {noun}")
         self._check_range(value, value)
-        return int(value) if self.kind == "INT" else float(value)
+        return int(value) if self.type == "INT" else float(value)
 
     def _checked_vector(self, value: object) -> tuple[float, float, float]:
         iterable = hasattr(value, "__iter__") and not isinstance(value, str)
         components = tuple(value) if iterable else ()
         # A colour with alpha is what Blender's own colour properties hold.
-        if self.kind == "COLOR" and len(components) == 4:
+        if self.type == "COLOR" and len(components) == 4:
             components = components[:3]
         if len(components) != 3 or not all(isinstance(c, Real) for c in components):
             raise TypeError(f"{self.identifier} is {value!r}: give three numbers")

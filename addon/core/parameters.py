@@ -10,7 +10,7 @@ from .parameter import Parameter
 FRESNEL_PANEL = "Fresnel"
 BOUNCES_PANEL = "Multiple Bounces"
 
-_SHARED: tuple[Parameter, ...] = (
+_OF_ALL_KINDS: tuple[Parameter, ...] = (
     Parameter(
         "Roughness",
         "Roughness",
@@ -159,6 +159,9 @@ _SHARED: tuple[Parameter, ...] = (
     ),
 )
 
+# The parameters that are the same for every kind of material, by identifier.
+SHARED: dict[str, Parameter] = {parameter.identifier: parameter for parameter in _OF_ALL_KINDS}
+
 CONDUCTOR: tuple[Parameter, ...] = (
     Parameter(
         "BaseColor",
@@ -211,7 +214,7 @@ CONDUCTOR: tuple[Parameter, ...] = (
         tooltip="Extinction coefficient k for red, green and blue. Used by n and k",
         panel=FRESNEL_PANEL,
     ),
-    *_SHARED,
+    *_OF_ALL_KINDS,
 )
 
 DIELECTRIC: tuple[Parameter, ...] = (
@@ -233,7 +236,7 @@ DIELECTRIC: tuple[Parameter, ...] = (
         (1.0, 2.5),
         tooltip="Index of refraction inside over that outside; the surface's normals point outside",
     ),
-    *_SHARED,
+    *_OF_ALL_KINDS,
 )
 
 DIFFUSE: tuple[Parameter, ...] = (
@@ -247,5 +250,5 @@ DIFFUSE: tuple[Parameter, ...] = (
         tooltip="Albedo of the facets: what is left of the light after each bounce. Further "
         "bounces deepen the colour",
     ),
-    *_SHARED,
+    *_OF_ALL_KINDS,
 )

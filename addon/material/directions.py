@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import bpy
 
-from .sockets import input_socket
+from .graph import socket_named
 
 
 class Directions(NamedTuple):
@@ -62,7 +62,7 @@ def _make_direction(
     mix.data_type = "VECTOR"
     mix.label = f"{given.name} or Default"
     mix.location = (-400, y)
-    links.new(usable.outputs[0], input_socket(mix, "Factor_Float"))
-    links.new(default, input_socket(mix, "A_Vector"))
-    links.new(finite.outputs["Vector"], input_socket(mix, "B_Vector"))
+    links.new(usable.outputs[0], socket_named(mix.inputs, "Factor_Float"))
+    links.new(default, socket_named(mix.inputs, "A_Vector"))
+    links.new(finite.outputs["Vector"], socket_named(mix.inputs, "B_Vector"))
     return next(s for s in mix.outputs if s.identifier == "Result_Vector")

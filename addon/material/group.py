@@ -18,9 +18,9 @@ from ..core.parameters import FRESNEL_PANEL
 from ..core.shader_source import ShaderSourceError, inlined_source
 from .directions import make_directions
 from .fallback import make_fallback
-from .graph import KIND_KEY
+from .graph import KIND_KEY, socket_named
 from .script import OslUnavailableError, ShaderCompileError, compile_source, fill_script_node
-from .sockets import SOCKET_TYPES, input_socket, socket_value
+from .sockets import SOCKET_TYPES, socket_value
 
 VERSION_KEY = "microbounce_version"
 STAMP_KEY = "microbounce_stamp"
@@ -146,17 +146,17 @@ def _make_socket(
         parameter.label,
         description=parameter.description,
         in_out="INPUT",
-        socket_type=SOCKET_TYPES[parameter.kind],
+        socket_type=SOCKET_TYPES[parameter.type],
         parent=panel,
     )
-    if parameter.kind == "FLOAT":
+    if parameter.type == "FLOAT":
         plain = "FACTOR" if parameter.legal == (0.0, 1.0) else "NONE"
         socket.subtype = _SUBTYPES.get(parameter.unit, plain)
-    if parameter.kind != "COLOR":
+    if parameter.type != "COLOR":
         socket.min_value, socket.max_value = parameter.legal
     socket.default_value = socket_value(parameter, parameter.default)
     # Hidden values also tell Cycles and EEVEE that an unlinked input means the surface's own.
-    socket.hide_value = parameter.kind in ("NORMAL", "TANGENT")
+    socket.hide_value = parameter.type in ("NORMAL", "TANGENT")
 
 
 def _make_nodes(group: bpy.types.ShaderNodeTree, kind: Kind, source: str, bytecode: str) -> None:
@@ -175,7 +175,7 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, kind: Kind, source: str, byteco
         # for native nodes that ask for them.
         if parameter.identifier == "Tangent":
             value = directions.tangent
-        links.new(value, input_socket(script, parameter.identifier))
+        links.new(value, socket_named(script.inputs, parameter.identifier))
 
     switch = nodes.new("ShaderNodeMixShader")
     switch.name = switch.label = "Fallback Unless Active"

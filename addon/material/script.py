@@ -122,10 +122,10 @@ def _ensure_sockets(node: bpy.types.Node, parameters: tuple[Parameter, ...]) -> 
         if parameter.identifier in present:  # Cycles made them while the text was assigned
             continue
         socket = node.inputs.new(
-            SOCKET_TYPES[parameter.kind], parameter.label, identifier=parameter.identifier
+            SOCKET_TYPES[parameter.type], parameter.label, identifier=parameter.identifier
         )
         socket.default_value = socket_value(parameter, parameter.default)
-        socket.hide_value = parameter.kind in ("NORMAL", "TANGENT")
+        socket.hide_value = parameter.type in ("NORMAL", "TANGENT")
     present = {socket.identifier for socket in node.outputs}
     for kind, name in (("NodeSocketShader", "BSDF"), ("NodeSocketFloat", "Active")):
         if name not in present:

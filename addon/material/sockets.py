@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parameters as sockets of nodes."""
 
-import bpy
-
 from ..core.parameter import Parameter
 
 SocketValue = float | int | bool | str | list[float]
@@ -20,12 +18,7 @@ SOCKET_TYPES = {
 def socket_value(parameter: Parameter, value: object) -> object:
     """Return `value`, checked, as a node socket of this parameter takes it (colours have alpha)."""
     checked = parameter.checked(value)
-    return (*checked, 1.0) if parameter.kind == "COLOR" else checked
-
-
-def input_socket(node: bpy.types.Node, identifier: str) -> bpy.types.NodeSocket:
-    """Return the node's input with this identifier; a node may have several of one name."""
-    return next(socket for socket in node.inputs if socket.identifier == identifier)
+    return (*checked, 1.0) if parameter.type == "COLOR" else checked
 
 
 def plain_value(value: object) -> SocketValue:

@@ -3,13 +3,12 @@
 
 import bpy
 
-from ..core.kinds import KINDS
 from ..core.lamps import Lamp
+from ..core.parameters import SHARED
 from ..material.graph import our_nodes
 from .rendered import rendered_objects
 
-# One for all kinds.
-_QUALITY = KINDS["CONDUCTOR"].by_identifier["Quality"]
+_QUALITY = SHARED["Quality"]
 _EXACT = _QUALITY.checked("Exact")
 
 

@@ -39,7 +39,7 @@ TABLES = tables()
     ],
 )
 def test_parameter_is_described_as_it_is(kind, parameter) -> None:
-    if parameter.kind in SURFACES_OWN:
+    if parameter.type in SURFACES_OWN:
         assert "Normal, Tangent" in TABLES[ALL]
         return
     own = TABLES[kind.name]

@@ -10,16 +10,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 
-from ..kinds import KINDS
+from ..parameters import SHARED
 from .reflectance import Colour
 from .step_errors import ANISOTROPIC, ISOTROPIC, Interval, cost, left_out, off
 
-QUALITIES = KINDS["CONDUCTOR"].by_identifier["Quality"].choices
-MOST_BOUNCES = int(KINDS["CONDUCTOR"].by_identifier["MaxBounces"].legal[1])
+QUALITIES = SHARED["Quality"].choices
+MOST_BOUNCES = int(SHARED["MaxBounces"].legal[1])
 FITTED_IORS = (1.05, 2.5)  # of glass; and 1 over them
 
-_SHADER_TOLERANCE = KINDS["CONDUCTOR"].by_identifier["Tolerance"].default
-_WALKS = KINDS["CONDUCTOR"].by_identifier["Walks"].default
+_SHADER_TOLERANCE = SHARED["Tolerance"].default
+_WALKS = SHARED["Walks"].default
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,10 @@
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 
-from ..kinds import KINDS
 from ..parameter import Parameter
+from ..parameters import SHARED
 
-# The same of all kinds.
-_PARAMETERS = KINDS["CONDUCTOR"].by_identifier
-STEPS = _PARAMETERS["Quality"].choices
+STEPS = SHARED["Quality"].choices
 
 REFERENCES = ("WALK", "EXACT")
 # What the references override. Walk has less bias the narrower its lobes are.
@@ -96,7 +94,7 @@ class Options:
             ("Kernel", self.kernels),
         ):
             for value in values:
-                _checked(_PARAMETERS[name], value)
+                _checked(SHARED[name], value)
         if self.region is not None:
             x0, y0, x1, y1 = self.region
             inside = 0.0 <= x0 < x1 <= 1.0 and 0.0 <= y0 < y1 <= 1.0

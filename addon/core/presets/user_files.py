@@ -21,7 +21,7 @@ _LARGEST = 65_536  # bytes; what is saved here takes about one thousand
 def saved_parameters(kind: str) -> tuple[Parameter, ...]:
     """Return the parameters of a kind that a user's preset holds."""
     parameters = kind_named(kind).parameters
-    return tuple(p for p in parameters if p.kind not in _SURFACES_OWN)
+    return tuple(p for p in parameters if p.type not in _SURFACES_OWN)
 
 
 def preset_text(kind: str, name: str, values: Mapping[str, object]) -> str:

@@ -127,7 +127,7 @@ def test_checked_refuses_and_says_why(name, value, error, words):
 
 
 def test_specification_refuses_contradictions():
-    with pytest.raises(ValueError, match="kind 'DOUBLE'"):
+    with pytest.raises(ValueError, match="type 'DOUBLE'"):
         Parameter("A", "A", "DOUBLE", 0.0, (0, 1), (0, 1))
     with pytest.raises(ValueError, match="2 choices"):
         Parameter("A", "A", "INT", 0, (0, 2), (0, 2), choices=("x", "y"))

@@ -61,7 +61,7 @@ def test_shader_declares_the_parameters(group_module, kind):
     assert [p.name for p in inputs] == [p.identifier for p in KINDS[kind].parameters]
     types = {"COLOR": "color", "FLOAT": "float", "INT": "int", "NORMAL": "normal"}
     for shader, parameter in zip(inputs, KINDS[kind].parameters, strict=True):
-        assert shader.type == types.get(parameter.kind, "vector"), shader.name
+        assert shader.type == types.get(parameter.type, "vector"), shader.name
         if not shader.computed:
             assert list(shader.default) == pytest.approx(numbers(parameter.default), rel=FLOAT32)
     assert [(p.name, p.type) for p in declared if p.output] == [
@@ -78,13 +78,13 @@ def test_sockets_are_the_parameters(group_module, kind):
     for parameter in KINDS[kind].parameters:
         socket = sockets[parameter.label]
         assert socket.in_out == "INPUT"
-        assert socket.socket_type == SOCKETS[parameter.kind]
+        assert socket.socket_type == SOCKETS[parameter.type]
         assert socket.description == parameter.description
-        default = numbers(parameter.default) + [1.0] * (parameter.kind == "COLOR")
+        default = numbers(parameter.default) + [1.0] * (parameter.type == "COLOR")
         assert numbers(socket.default_value) == pytest.approx(default, rel=FLOAT32)
-        assert socket.hide_value == (parameter.kind in ("NORMAL", "TANGENT"))
+        assert socket.hide_value == (parameter.type in ("NORMAL", "TANGENT"))
         assert socket.parent.name == parameter.panel
-        if parameter.kind != "COLOR":
+        if parameter.type != "COLOR":
             limits = (socket.min_value, socket.max_value)
             assert limits == pytest.approx(parameter.legal, rel=FLOAT32)
 
