@@ -77,15 +77,15 @@ format: ## Format the Python sources and fix what ruff can fix
 	@$(any) -m ruff check --fix . ; "$$python" -m ruff format .
 
 addon: ## Build the extension's zip into dist/ and validate it; needs Python 3.11 for the asset library
-	@if python="$$(tools/environment.sh 4.5)"; then "$$python" -m tools.build_assets; \
+	@if python="$$(tools/environment.sh 4.5)"; then "$$python" -m tools.release.assets; \
 	else echo "Going on without the asset library, which Blender 4.5 builds." >&2; fi
-	@$(any) -m tools.build_addon
+	@$(any) -m tools.release.extension
 
 assets: ## Build the asset library of the presets into build/assets, with Blender 4.5 so that both open it
-	@$(on_4.5) -m tools.build_assets
+	@$(on_4.5) -m tools.release.assets
 
 previews: ## Render the presets' pictures that are missing or old (addon/previews)
-	@$(any) -m tools.render_previews
+	@$(any) -m tools.previews
 
 references: ## Render the oracle's reference pictures anew (about 35 minutes)
 	@$(any) -m osl.oracle.references

@@ -28,9 +28,9 @@ from addon.core.analysis.prediction import (
 )
 from addon.core.analysis.proposal import time_of
 from addon.scene.share import shown_materials
-from tools.timing import SampleTimes, time_samples
 
 from . import comparison, mixed, render
+from .timing import SampleTimes, time_samples
 
 ROOT = Path(__file__).resolve().parent.parent
 PICTURE = ROOT / "build" / "analysis" / "comparison.png"

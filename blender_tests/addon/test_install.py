@@ -14,7 +14,7 @@ import pytest
 from addon.core import VERSION
 from addon.core.kinds import KINDS
 from blender_tests.addon.support import ROOT, read_picture, run_blender
-from tools import build_addon
+from tools.release import extension
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def archive(tmp_path_factory):
     done = subprocess.run(
         [
             sys.executable,
-            *("-m", "tools.build_addon"),
+            *("-m", "tools.release.extension"),
             *("--output", str(folder / "dist"), "--work", str(folder / "build")),
             *("--library", str(folder / "none")),
         ],
@@ -65,12 +65,12 @@ def test_zip_holds_no_path_of_this_machine_and_no_byte_code(archive):
 def test_a_damaged_manifest_is_refused(tmp_path):
     folder = tmp_path / "broken"
     folder.mkdir()
-    build_addon.stage(folder)
+    extension.stage(folder)
     manifest = folder / "blender_manifest.toml"
     text = manifest.read_text(encoding="utf-8")
     manifest.write_text(text.replace('"add-on"', '"gadget"'), encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, str(build_addon.extension_builder()), "validate", str(folder)],
+        [sys.executable, str(extension.builder_script()), "validate", str(folder)],
         capture_output=True,
         text=True,
         check=False,

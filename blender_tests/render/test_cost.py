@@ -9,7 +9,7 @@ import pytest
 
 from addon.material.node import new_material
 from scenes import pictures, variants
-from tools.timing import SampleTimes, time_samples
+from scenes.timing import SampleTimes, time_samples
 
 pytestmark = [pytest.mark.nightly, pytest.mark.timing]
 

@@ -16,9 +16,9 @@ from addon.material.group import material_group, script_node
 from addon.material.node import new_material
 from addon.material.script import compile_source
 from scenes import pictures, variants
+from scenes.timing import SampleTimes, time_samples
 from tools.figures.cache import ROOT, write
 from tools.figures.markdown import table, wrap
-from tools.timing import SampleTimes, time_samples
 
 from .machine import this_machine
 from .shaders import replaced_source

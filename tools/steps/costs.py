@@ -11,7 +11,7 @@ from addon.core.kinds import KINDS
 from addon.material.node import new_material
 from addon.scene.share import picture_shares
 from scenes import mixed
-from tools.timing import time_samples
+from scenes.timing import time_samples
 
 ALPHAS = (0.04, 0.25, 1.0)
 ROUNDS = 3

@@ -24,7 +24,7 @@ def run_session(folder: Path) -> dict[str, object]:
     raises, and
     subprocess.CalledProcessError where the zip cannot be built.
     """
-    builder = [sys.executable, "-m", "tools.build_addon"]
+    builder = [sys.executable, "-m", "tools.release.extension"]
     places = ["--output", str(folder / "dist"), "--work", str(folder / "build")]
     subprocess.run(
         [*builder, *places], cwd=ROOT, check=True, timeout=_BUILD, stdout=subprocess.DEVNULL

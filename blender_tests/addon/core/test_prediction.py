@@ -21,7 +21,7 @@ from osl.oracle import Surface as OracleSurface
 from osl.oracle.balanced import BalancedDielectric
 from osl.oracle.fresnel import F82Tint
 from osl.oracle.reference_cases import CLAY, COPPER, GOLD
-from tools import measure_steps
+from tools.steps import __main__ as measure_steps
 from tools.steps import bounces
 
 FITTED, WALK = Choice("Fitted", 16), Choice("Walk", 16)

@@ -10,15 +10,15 @@ import zstandard
 
 from addon.core.kinds import KINDS
 from addon.core.presets import catalogue as presets
-from tools import build_addon, build_assets
-from tools.repack_blend import repack
+from tools.release import assets, extension
+from tools.release.repack import repack
 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
     """The folder of a library that was built by the command's own function."""
     folder = tmp_path_factory.mktemp("library ü") / "assets"
-    build_assets.build(folder)
+    assets.build(folder)
     return folder
 
 
@@ -26,7 +26,7 @@ def library(tmp_path_factory):
 def loaded(library, empty_file):
     """The library's assets, appended to an empty file, by name; returns bpy and them."""
     bpy = empty_file
-    path = str(library / build_assets.BLEND)
+    path = str(library / assets.BLEND)
     with bpy.data.libraries.load(path, assets_only=True) as (found, wanted):
         wanted.materials = found.materials
     return bpy, list(wanted.materials)
@@ -48,7 +48,7 @@ def test_every_preset_is_an_asset_with_its_values(loaded):
         assert {tag.name for tag in data.tags} >= set(preset.tags)
         assert data.author
         assert preset.source.licence in data.license
-        assert data.catalog_id == build_assets.catalogue_id(preset.kind)
+        assert data.catalog_id == assets.catalogue_id(preset.kind)
         node = material_node(material)
         for identifier, value in preset.values.items():
             parameter = KINDS[preset.kind].by_identifier[identifier]
@@ -84,11 +84,11 @@ def test_the_library_has_a_group_a_kind_and_nothing_of_this_machine(loaded):
 
 
 def test_catalogue_file(library):
-    text = (library / build_assets.CATALOGUE_FILE).read_text(encoding="utf-8")
+    text = (library / assets.CATALOGUE_FILE).read_text(encoding="utf-8")
     version, *lines = [line for line in text.splitlines() if line]
     assert version == "VERSION 1"
     entries = [line.split(":") for line in lines]
-    assert {path for _, path, _ in entries} == set(build_assets.CATALOGUES.values())
+    assert {path for _, path, _ in entries} == set(assets.CATALOGUES.values())
     assert all(path.startswith("Microbounce/") for _, path, _ in entries)
     assert len({uuid.UUID(identifier) for identifier, _, _ in entries}) == len(KINDS)
     assert "Microbounce/Metals" in text
@@ -108,10 +108,10 @@ def test_packing_harder_keeps_every_byte(tmp_path):
 
 
 def test_a_library_of_other_sources_is_not_current(library, monkeypatch, tmp_path):
-    assert build_assets.is_current(library)
-    assert not build_assets.is_current(tmp_path)
-    monkeypatch.setattr(build_assets, "digest", lambda: "other")
-    assert not build_assets.is_current(library)
+    assert assets.is_current(library)
+    assert not assets.is_current(tmp_path)
+    monkeypatch.setattr(assets, "digest", lambda: "other")
+    assert not assets.is_current(library)
 
 
 def test_a_missing_picture_is_named(empty_file, monkeypatch, tmp_path):
@@ -119,18 +119,18 @@ def test_a_missing_picture_is_named(empty_file, monkeypatch, tmp_path):
 
     monkeypatch.setattr(preset_icons, "FOLDER", tmp_path)
     with pytest.raises(RuntimeError, match=r"\.webp is missing: render it with `make previews`"):
-        build_assets.build(tmp_path / "assets")
-    assert not build_assets.is_current(tmp_path / "assets")
+        assets.build(tmp_path / "assets")
+    assert not assets.is_current(tmp_path / "assets")
 
 
 def test_the_zip_holds_it(library, tmp_path):
     folder = tmp_path / "staged"
     folder.mkdir()
-    build_addon.stage(folder, library)
+    extension.stage(folder, library)
     staged = {path.name for path in (folder / "assets").iterdir()}
-    assert staged == {build_assets.BLEND, build_assets.CATALOGUE_FILE}
+    assert staged == {assets.BLEND, assets.CATALOGUE_FILE}
     # Nothing else in the zip is large.
-    assert (folder / "assets" / build_assets.BLEND).stat().st_size < 3_000_000
+    assert (folder / "assets" / assets.BLEND).stat().st_size < 3_000_000
 
 
 @pytest.fixture
@@ -177,7 +177,7 @@ def test_a_folder_that_went_missing(offered):
     bpy, folder = offered
     ops = bpy.ops.microbounce
     ops.register_library()
-    (folder / build_assets.BLEND).unlink()
+    (folder / assets.BLEND).unlink()
     folder.rmdir()
     with pytest.raises(RuntimeError, match="has no asset library: install one that has"):
         ops.register_library()
@@ -193,7 +193,7 @@ def test_the_folder_of_the_preferences_goes_before_the_extensions_own(offered, s
     with pytest.raises(RuntimeError, match=r"There is no microbounce\.blend in .*shared ü: choose"):
         ops.register_library()
     shared.mkdir()
-    (shared / build_assets.BLEND).write_bytes(b"")
+    (shared / assets.BLEND).write_bytes(b"")
     assert not ops.register_library.poll(), "panels remember the answer"
     stored.library_path = ""
     ops.register_library.poll()
@@ -238,5 +238,5 @@ def test_the_disk_is_looked_at_when_something_changed(offered, stored, monkeypat
 def test_library_and_operators_agree_on_the_file_name():
     from addon.operators import library as ops
 
-    assert ops.BLEND == build_assets.BLEND
-    assert ops._FOLDERS[1] == build_assets.FOLDER
+    assert ops.BLEND == assets.BLEND
+    assert ops._FOLDERS[1] == assets.FOLDER

@@ -4,9 +4,9 @@
 import pytest
 
 from addon.core.kinds import kind_named
+from scenes.timing import SampleTimes
 from tools.bench import gains
 from tools.bench.shaders import replaced_source
-from tools.timing import SampleTimes
 
 
 @pytest.mark.parametrize("change", gains.CHANGES, ids=lambda one: f"{one.quality}: {one.what}")

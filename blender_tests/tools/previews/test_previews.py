@@ -11,7 +11,8 @@ import pytest
 
 from addon.core.presets import catalogue as presets
 from addon.presets import icons as preset_icons
-from tools import preview_scene, render_previews
+from tools.previews import __main__ as command
+from tools.previews import scene as preview_scene
 
 
 def picture(path):
@@ -25,7 +26,7 @@ def picture(path):
 
 
 def test_the_committed_pictures_are_complete_and_small(capsys):
-    assert render_previews.main(["--check"]) == 0, capsys.readouterr().err
+    assert command.main(["--check"]) == 0, capsys.readouterr().err
     for preset in presets.presets():
         pixels = picture(preset_icons.picture_path(preset.identifier))
         assert pixels.shape == (preview_scene.SIZE, preview_scene.SIZE, 3)
@@ -52,15 +53,15 @@ def few(tmp_path, monkeypatch):
     chosen = [presets.preset("conductor/gold"), presets.preset("dielectric/water")]
     folder = tmp_path / "previews"
     folder.mkdir()
-    known = render_previews.known_fingerprints()
+    known = command.known_fingerprints()
     for item in chosen:
         shutil.copy2(preset_icons.picture_path(item.identifier), folder)
     monkeypatch.setattr(preset_icons, "FOLDER", folder)
-    monkeypatch.setattr(render_previews, "presets", lambda: tuple(chosen))
-    monkeypatch.setattr(render_previews, "ROOT", tmp_path)
+    monkeypatch.setattr(command, "presets", lambda: tuple(chosen))
+    monkeypatch.setattr(command, "ROOT", tmp_path)
     kept = {item.identifier: known[item.identifier] for item in chosen}
-    render_previews.manifest_path().write_text(json.dumps(kept))
-    assert render_previews.complaints() == []
+    command.manifest_path().write_text(json.dumps(kept))
+    assert command.complaints() == []
     return folder
 
 
@@ -68,7 +69,7 @@ def test_what_is_missing_old_or_left_over_is_named(few, monkeypatch, capsys):
     gold = few / "conductor-gold.webp"
     shutil.copy2(gold, few / "conductor-unheard-of.webp")
     gold.unlink()
-    assert render_previews.main(["--check"]) == 1
+    assert command.main(["--check"]) == 1
     message = capsys.readouterr().err
     assert "conductor/gold: no picture of today's values" in message
     assert "conductor-unheard-of.webp: belongs to no preset" in message
@@ -78,22 +79,22 @@ def test_what_is_missing_old_or_left_over_is_named(few, monkeypatch, capsys):
 
 
 def test_other_values_make_a_picture_old(few, monkeypatch):
-    gold, water = render_previews.presets()
+    gold, water = command.presets()
     other = dataclasses.replace(gold, values={**gold.values, "BaseColor": (0.5, 0.5, 0.5)})
-    monkeypatch.setattr(render_previews, "presets", lambda: (other, water))
-    assert render_previews.outdated() == [other]
+    monkeypatch.setattr(command, "presets", lambda: (other, water))
+    assert command.outdated() == [other]
 
 
 def test_another_scene_makes_every_picture_old(few, monkeypatch, tmp_path):
     script = tmp_path / "preview_scene.py"
     script.write_text("# another")
     monkeypatch.setattr(preview_scene, "__file__", str(script))
-    assert render_previews.outdated() == list(render_previews.presets())
+    assert command.outdated() == list(command.presets())
 
 
 def test_too_many_bytes_are_named(few, monkeypatch):
-    monkeypatch.setattr(render_previews, "LIMIT", 1000)
-    assert any("may take 1000" in complaint for complaint in render_previews.complaints())
+    monkeypatch.setattr(command, "LIMIT", 1000)
+    assert any("may take 1000" in complaint for complaint in command.complaints())
 
 
 def test_one_picture_is_rendered_anew(few, monkeypatch):
@@ -102,7 +103,7 @@ def test_one_picture_is_rendered_anew(few, monkeypatch):
     gold, water = few / "conductor-gold.webp", few / "dielectric-water.webp"
     before = water.read_bytes()
     gold.write_bytes(b"damaged")
-    assert render_previews.main(["--only", "conductor/gold"]) == 0
+    assert command.main(["--only", "conductor/gold"]) == 0
     pixels = picture(gold)
     assert pixels.shape == (24, 24, 3)
     center = pixels[8:16, 8:16].mean(axis=(0, 1))
@@ -110,10 +111,10 @@ def test_one_picture_is_rendered_anew(few, monkeypatch):
     assert water.read_bytes() == before
     content = gold.read_bytes()
     assert str(few).encode() not in content
-    assert render_previews.outdated() == []
+    assert command.outdated() == []
 
 
 def test_an_unknown_name_is_refused(few, capsys):
     with pytest.raises(SystemExit):
-        render_previews.main(["--only", "conductor/unheard-of"])
+        command.main(["--only", "conductor/unheard-of"])
     assert "there is no preset 'conductor/unheard-of'" in capsys.readouterr().err

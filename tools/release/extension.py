@@ -12,12 +12,12 @@ import sys
 import tomllib
 from pathlib import Path
 
-from . import build_assets
+from . import assets
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
-def extension_builder() -> Path:
+def builder_script() -> Path:
     """Return Blender's command line for extensions, which lies in the bpy package.
 
     Raises FileNotFoundError where this Python has no bpy or bpy has no builder.
@@ -54,7 +54,7 @@ def stage(folder: Path, library: Path | None = None) -> None:
         shutil.copy2(source, target)
     if library is not None:
         (folder / "assets").mkdir()
-        for name in (build_assets.BLEND, build_assets.CATALOGUE_FILE):
+        for name in (assets.BLEND, assets.CATALOGUE_FILE):
             shutil.copy2(library / name, folder / "assets")
 
 
@@ -73,7 +73,7 @@ def build(output: Path, work: Path, library: Path | None = None) -> Path:
     archive = output / f"{manifest['id']}-{manifest['version']}.zip"
     output.mkdir(parents=True, exist_ok=True)
     archive.unlink(missing_ok=True)
-    builder = [sys.executable, str(extension_builder())]
+    builder = [sys.executable, str(builder_script())]
     subprocess.run(
         [*builder, "build", "--source-dir", str(folder), "--output-filepath", str(archive)],
         check=True,
@@ -90,11 +90,11 @@ def main() -> int:
         "--work", type=Path, default=ROOT / "build", help="folder for the files to pack"
     )
     parser.add_argument(
-        "--library", type=Path, default=build_assets.FOLDER, help="folder of the asset library"
+        "--library", type=Path, default=assets.FOLDER, help="folder of the asset library"
     )
     arguments = parser.parse_args()
     library = arguments.library.resolve()
-    if not build_assets.is_current(library):
+    if not assets.is_current(library):
         print("The zip is made without the asset library: `make assets` builds it (Blender 4.5)")
         library = None
     try:

@@ -8,7 +8,7 @@ from scenes.pictures import Widths
 from scenes.references import Case
 from tools.steps import costs, pictures
 
-REMEDY = "run `python -m tools.measure_steps`"
+REMEDY = "run `python -m tools.steps`"
 
 
 @pytest.mark.parametrize(

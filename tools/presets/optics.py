@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .preset_colour import CHANNELS, WAVELENGTHS, colour
-from .preset_database import Spectrum
+from .colour import CHANNELS, WAVELENGTHS, colour
+from .database import Spectrum
 
 COS_82 = 1.0 / 7.0
 

@@ -15,9 +15,9 @@ from addon.core.kinds import KINDS
 from addon.core.presets.catalogue import presets, problems
 from addon.core.presets.files import Preset
 
-from .repack_blend import repack
+from .repack import repack
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "build" / "assets"
 BLEND = "microbounce.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
@@ -28,7 +28,7 @@ CATALOGUES = {
 }
 # Blender finds a catalogue by this, so it must stay the same from version to version.
 _NAMESPACE = uuid.UUID("6d1f8f0e-0b5c-5c1e-9a57-1a9c5b3f7d42")
-_SOURCES = ("addon", "osl", "tools/build_assets.py", "tools/repack_blend.py")
+_SOURCES = ("addon", "osl", "tools/release/assets.py", "tools/release/repack.py")
 
 
 def catalogue_id(kind: str) -> str:

@@ -21,9 +21,9 @@ from addon.presets import icons as preset_icons
 from addon.presets.apply import NEW_VALUES, preset_material
 from scenes.render import messages_to
 
-from . import preview_scene
+from . import scene as preview_scene
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 LIMIT = 300_000  # bytes of all pictures together
 _QUALITY = 82  # of WebP, in percent
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 import pytest
 
-from tools.timing import SampleTimes, time_samples
+from scenes.timing import SampleTimes, time_samples
 
 FURNACE = Path(__file__).resolve().parents[2] / "scenes" / "furnace_conductor.blend"
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from osl.oracle.fresnel import IndexOfRefraction
-from tools import measure_presets
-from tools.preset_colour import WAVELENGTHS, colour, daylight, matching_functions
-from tools.preset_database import PhysicallyBased, RefractiveIndex, SourceError
-from tools.preset_matte_solver import energy_by_bounce, facet_albedo, total_albedo
-from tools.preset_optics import COS_82, MOST, effective_index, metal, reflectance, transmittance
+from tools.presets import __main__ as command
+from tools.presets.albedo import energy_by_bounce, facet_albedo, total_albedo
+from tools.presets.colour import WAVELENGTHS, colour, daylight, matching_functions
+from tools.presets.database import PhysicallyBased, RefractiveIndex, SourceError
+from tools.presets.optics import COS_82, MOST, effective_index, metal, reflectance, transmittance
 
 CATALOGUE = """
 - SHELF: main
@@ -88,15 +88,15 @@ def clones(tmp_path):
 def run(clones, tmp_path, monkeypatch):
     """Runs the command on the clones with tables of one line; returns the exit code."""
     for name, table in TABLES.items():
-        monkeypatch.setattr(measure_presets, name, table)
-    monkeypatch.setattr(measure_presets, "FOLDER", tmp_path / "presets")
+        monkeypatch.setattr(command, name, table)
+    monkeypatch.setattr(command, "FOLDER", tmp_path / "presets")
 
-    def command(*options):
+    def main(*options):
         arguments = [str(folder) for folder in clones]
-        monkeypatch.setattr(sys, "argv", ["measure_presets", *arguments, *options])
-        return measure_presets.main()
+        monkeypatch.setattr(sys, "argv", ["presets", *arguments, *options])
+        return command.main()
 
-    return command
+    return main
 
 
 def test_white_is_white_and_daylight_is_d65():
@@ -207,7 +207,7 @@ def test_matte_albedo_is_found_back_and_its_walks_are_enough(monkeypatch):
     assert facet_albedo(0.3, 0.0) == pytest.approx(0.3, abs=1e-9)
     assert facet_albedo(0.3, 1.0) > facet_albedo(0.3, 0.5) > 0.3
     first = total_albedo(np.array([0.2, 0.5, 0.8]), 0.9)
-    monkeypatch.setattr("tools.preset_matte_solver._SEED", 2)
+    monkeypatch.setattr("tools.presets.albedo._SEED", 2)
     energy_by_bounce.cache_clear()
     second = total_albedo(np.array([0.2, 0.5, 0.8]), 0.9)
     energy_by_bounce.cache_clear()
@@ -261,6 +261,6 @@ def test_what_the_command_writes_is_read_by_the_extension(run, tmp_path, monkeyp
 
 
 def test_the_command_says_what_is_missing(run, monkeypatch, capsys):
-    monkeypatch.setattr(measure_presets, "MATTE", "Ash | Ashes | Gray | ground")
+    monkeypatch.setattr(command, "MATTE", "Ash | Ashes | Gray | ground")
     assert run() == 1
     assert "No preset was made: physicallybased.info has no 'Ashes'" in capsys.readouterr().err
