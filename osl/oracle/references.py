@@ -22,7 +22,7 @@ from . import exr
 from .picture import furnace_picture, sun_picture
 from .reference_cases import CASES, COMMAND, Case
 
-FOLDER = Path(__file__).resolve().parent.parent / "references"
+FOLDER = Path(__file__).resolve().parents[2] / "blender_tests/references"
 
 
 def relative_error(picture: dict[str, np.ndarray]) -> float:
