@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds every .blend file of this folder."""
 
-import os
-import sys
-
 from addon.core.kinds import KINDS
 
 from . import build_showcase, fixtures
+from .leave import leave
 
 
 def main() -> None:
@@ -20,6 +18,4 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
-    # bpy 4.5 was seen to hang while it takes itself down.
-    sys.stdout.flush()
-    os._exit(0)
+    leave()

@@ -10,7 +10,6 @@ seconds per sample. The denoiser and adaptive sampling are off.
 import argparse
 import os
 import statistics
-import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,6 +19,7 @@ import numpy as np
 from tqdm import tqdm
 
 from . import comparison, furnace, render, variants
+from .leave import leave
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENE = ROOT / "scenes" / "showcase.blend"
@@ -222,7 +222,4 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
-    # bpy 4.5 was seen to hang while it takes itself down.
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(0)
+    leave()

@@ -7,8 +7,6 @@ and adaptive sampling are off.
 """
 
 import argparse
-import os
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,6 +21,7 @@ from addon.material.node import new_material
 
 from . import common, comparison, demo, render, shapes, variants
 from .build_showcase import METALS, VASE
+from .leave import leave
 
 PICTURE = demo.ROOT / "docs" / "materials.jpg"
 RESOLUTION = (330, 250)
@@ -184,7 +183,4 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
-    # bpy 4.5 was seen to hang while it takes itself down.
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(0)
+    leave()

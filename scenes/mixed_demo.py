@@ -8,8 +8,6 @@ which have less noise; a sphere is several blocks wide.
 """
 
 import argparse
-import os
-import sys
 import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -30,6 +28,7 @@ from addon.core.analysis.proposal import time_of
 from addon.scene.share import shown_materials
 
 from . import comparison, mixed, render
+from .leave import leave
 from .timing import SampleTimes, time_samples
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -200,7 +199,4 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
-    # bpy 4.5 was seen to hang while it takes itself down.
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(0)
+    leave()

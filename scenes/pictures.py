@@ -121,7 +121,7 @@ def open_solid_sphere(roughness: float) -> variants.Material:
 
 
 def reference(name: str) -> dict[str, np.ndarray]:
-    """Layers of the oracle's picture; `mask` is boolean. Raises OSError where it is missing."""
+    """Layers of the oracle's picture; `mask` is boolean. Raises OSError if it is missing."""
     layers, _ = exr.read(REFERENCES / f"{name}.exr")
     return layers | {"mask": layers["mask"] > 0.5}
 

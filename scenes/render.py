@@ -22,7 +22,7 @@ def render_passes(path: Path, samples: int, seed: int, log: Path) -> tuple[dict,
     Returns the passes by channel name without the layer, such as "Combined.R" or "IndexOB.X" (so
     named also where Blender 5 says "Object Index.X"), each float32 (height, width) from the top
     row down, and the seconds that the render took.
-    Blender's own messages are appended to `log`. Raises RuntimeError where no picture came out.
+    Blender's own messages are appended to `log`. Raises RuntimeError if no picture came out.
     """
     scene = bpy.context.scene
     scene.cycles.samples, scene.cycles.seed = samples, seed

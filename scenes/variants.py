@@ -46,7 +46,7 @@ class Material:
 def find_materials() -> list[Material]:
     """Return our materials of the open file, of any kind, by rising object index.
 
-    Raises RuntimeError where there is none, or where one of them holds no compiled shader.
+    Raises RuntimeError if there is none, or where one of them holds no compiled shader.
     """
     found = {}
     for thing in bpy.context.scene.objects:

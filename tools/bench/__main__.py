@@ -77,7 +77,6 @@ def files(found: Mapping[str, SceneFindings], whole: bool) -> dict[str, str]:
     aims = targets(found)
     return made | {
         "README.md": page.page(found, aims),
-        "headline.md": page.headline_table(found) + "\n",
         "curves.csv": tables.curves(found),
         "costs.csv": tables.costs(found),
         "results.json": tables.results(found, aims),

@@ -66,7 +66,7 @@ def ratio(ours: Curve, theirs: Curve) -> Ratio:
 
 
 def ratios(found: Mapping[str, SceneFindings]) -> dict[str, Ratio]:
-    """All of CHECKED by their names; raises KeyError where a scene or variant was not measured."""
+    """All of CHECKED by their names; raises KeyError if a scene or variant was not measured."""
     return {
         _name(scene, ours, theirs): ratio(found[scene].curves[ours], found[scene].curves[theirs])
         for scene, ours, theirs in CHECKED
@@ -77,7 +77,8 @@ def write_ratios(found: Mapping[str, Ratio], machine: Mapping[str, object]) -> s
     """The text of ratios.json."""
     stored = {name: {key: round(value, 5) for key, value in asdict(one).items()}
               for name, one in found.items()}  # fmt: skip
-    return json.dumps({"machine": dict(machine), "ratios": stored}, indent=2) + "\n"
+    content = {"command": "make bench", "machine": dict(machine), "ratios": stored}
+    return json.dumps(content, indent=2) + "\n"
 
 
 def read_ratios(path: Path, blender: str) -> dict[str, Ratio]:

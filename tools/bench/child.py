@@ -6,9 +6,10 @@ are done (Scene.work), ``KEPT paths`` that so many were done before.
 """
 
 import argparse
-import os
 import sys
 from pathlib import Path
+
+from scenes.leave import leave
 
 from . import plan, store
 from .measure import Measure
@@ -56,6 +57,4 @@ def _tell(kept: bool, paths: int) -> None:
 
 if __name__ == "__main__":
     main()
-    # bpy 4.5 was seen to hang while it takes itself down.
-    sys.stdout.flush()
-    os._exit(0)
+    leave()

@@ -23,7 +23,7 @@ class Curve:
     cpu     -- seconds that all threads took for a sample, by round
     wall    -- seconds that passed, by round
     start   -- seconds that all threads took for the first render after the switch, by round
-    bias    -- of what it converges to; None where there are not the pictures to tell it
+    bias    -- of what it converges to; None if there are not the pictures to tell it
     piece   -- seconds that all threads took for a render beside its samples, median of the rounds
     """
 
@@ -71,7 +71,7 @@ class Curve:
         return None if squared is None else math.sqrt(squared)
 
     def seconds_to(self, error: float) -> float | None:
-        """The first time at which the error is at most `error`; None where it never is.
+        """The first time at which the error is at most `error`; None if it never is.
 
         Where one sample is enough it is the time of one sample.
         """
@@ -101,7 +101,7 @@ def time_ratio(ours: Curve, theirs: Curve) -> float:
 
 
 def shared_times(one: Curve, other: Curve) -> tuple[float, float] | None:
-    """The span of time in which both have an error; None where there is no such time."""
+    """The span of time in which both have an error; None if there is no such time."""
     start = max(one.seconds[0], other.seconds[0])
     end = min(one.seconds[-1], other.seconds[-1])
     return (start, end) if start <= end and one.known and other.known else None

@@ -86,7 +86,7 @@ def draw_headline(scenes: Sequence[SceneFindings]) -> str:
 
 
 def draw_sweeps(found: dict[str, SceneFindings]) -> str | None:
-    """What the limit of bounces, the number of walks and the size of the picture cost; None where
+    """What the limit of bounces, the number of walks and the size of the picture cost; None if
     none of that was measured over its whole range."""
     page = Figure(figsize=(WIDTH, 3.9))
     heading(

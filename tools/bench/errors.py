@@ -14,7 +14,7 @@ Reference = dict[str, np.ndarray]
 
 
 def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") -> float:
-    """Squared error of a picture, noise and bias together; nan where there is no reference.
+    """Squared error of a picture, noise and bias together; nan if there is no reference.
 
     The difference from one picture of the reference is multiplied with that from the other: their
     own noise cancels in the mean.
@@ -44,7 +44,7 @@ def converged(
 def resolution(reference: Reference, error: np.ndarray | None = None) -> float:
     """The squared error that the reference's own noise makes: below it nothing is told.
 
-    error -- standard error of the oracle's picture, like its pixels; None where two renders are the
+    error -- standard error of the oracle's picture, like its pixels; None if two renders are the
              reference, whose noise is of the size of their difference
     """
     first, second = _pair(reference, "")

@@ -39,12 +39,12 @@ class SceneFindings:
 
 
 def read_scenes(scenes: Iterable[Scene], folder: Path) -> dict[str, SceneFindings]:
-    """The findings of `scenes` by name. Raises MissingResultError where one lacks a run."""
+    """The findings of `scenes` by name. Raises MissingResultError if one lacks a run."""
     return {scene.name: read_scene(scene, folder) for scene in scenes}
 
 
 def read_scene(scene: Scene, folder: Path) -> SceneFindings:
-    """The findings of one scene. Raises MissingResultError where it lacks a run."""
+    """The findings of one scene. Raises MissingResultError if it lacks a run."""
     reference = _load(store.reference_path(folder, scene), scene)
     floor = float(reference["resolution"]) if "resolution" in reference else float("nan")
     curves = {

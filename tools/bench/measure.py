@@ -40,7 +40,7 @@ class Measure:
         """Two pictures ``first`` and ``second`` (rows, columns, 3) whose noise is independent, the
         same array twice where it is the oracle's; ``mask``; others by ``variant's name``; machine.
 
-        Raises OSError where a file of the oracle's is missing.
+        Raises OSError if a file of the oracle's is missing.
         """
         machine = {key: np.array(value) for key, value in this_machine().as_dict().items()}
         name = self.scene.reference

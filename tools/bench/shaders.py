@@ -32,7 +32,7 @@ PATCHES = {
 def replaced_source(kind: str, patches: Iterable[tuple[str, str]]) -> str:
     """The source of this kind's shader, the first text of each pair replaced by the second.
 
-    Raises ValueError where the shader does not have just once what is to be replaced.
+    Raises ValueError if the shader does not have just once what is to be replaced.
     """
     source = inlined_source(kind_named(kind).shader)
     for ours, other in patches:

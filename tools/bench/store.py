@@ -55,7 +55,7 @@ def save(path: Path, result: Result) -> None:
 
 
 def load(path: Path) -> Result | None:
-    """Read a result; None where there is none, or none that can be read."""
+    """Read a result; None if there is none, or none that can be read."""
     try:
         with np.load(path, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}

@@ -48,6 +48,7 @@ def results(found: Mapping[str, SceneFindings], aims: Sequence[Target]) -> str:
     """Everything, with the machine, as JSON; what is not known is null."""
     first = next(iter(found.values()))
     content = {
+        "command": "make bench",
         "machine": first.machine.as_dict(),
         "targets": [_known(aim.as_dict()) for aim in aims],
         "scenes": {

@@ -29,7 +29,7 @@ class Target:
     """One aim on one scene.
 
     aim   -- in words, such as "Fitted takes at most 1.1 times as long as Cycles"
-    value -- what was measured, nan where the two share no time; ``low`` and ``high`` its range over
+    value -- what was measured, nan if the two share no time; ``low`` and ``high`` its range over
              rounds, or over all times
     limit -- of the value; ``at_most`` tells on which side of it the aim lies
     span  -- what the range is over: "rounds" or "times"

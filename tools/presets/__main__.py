@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the files of addon/presets from measured data: the same clones give the same files.
+"""Makes the presets in addon/presets from measured data. The same clones give the same files.
 
     git clone https://github.com/polyanskiy/refractiveindex.info-database
     git clone https://github.com/AntonPalmqvist/physically-based-api
     python -m tools.presets refractiveindex.info-database physically-based-api
 
-The committed files are from commit ff11b589 of the first and bcae8edc of the second. With --check
-nothing is written, and the exit code says whether the files are what would be.
+The committed files are from commit ff11b589 of the first and bcae8edc of the second. --check writes
+nothing. Its exit code is 0 if the files are what the command would write, else 1.
 """
 
 import argparse
+import itertools
 import re
 import sys
 from collections.abc import Iterator
@@ -28,7 +29,7 @@ from .optics import metal, transmittance
 
 FOLDER = Path(__file__).resolve().parents[2] / "addon" / "presets"
 
-D_LINE = 587.56  # nm, at which glass makers give the index n_d
+D_LINE = 587.56  # nm; glass makers give the index n_d at it
 
 _HEADER = """\
 # SPDX-License-Identifier: GPL-3.0-or-later   (data: CC0, see source)
@@ -53,7 +54,7 @@ def rows(table: str) -> Iterator[list[str]]:
 
 
 def document(head: Fields, values: Fields, measured: Fields, source: Fields, note: str = "") -> str:
-    """Return a TOML file; numbers have four decimals. `note` says what `measured` is."""
+    """Return the text of a TOML file, numbers with four decimals. `note` explains `measured`."""
     parts = [_HEADER + _fields(head), "[values]\n" + _fields(values)]
     if measured:
         parts.append(f"[measured]  # {note}\n{_fields(measured)}")
@@ -61,7 +62,7 @@ def document(head: Fields, values: Fields, measured: Fields, source: Fields, not
 
 
 def file_name(name: str) -> str:
-    """Return a file's name for the name of a preset."""
+    """Return the file name for the name of a preset."""
     return re.sub(r"[^a-z0-9]+", "_", name.lower()) + ".toml"
 
 
@@ -85,8 +86,8 @@ def conductors(database: RefractiveIndex) -> Iterator[tuple[str, str]]:
 def dielectrics(database: RefractiveIndex, physical: PhysicallyBased) -> Iterator[tuple[str, str]]:
     """Yield path and text of each dielectric.
 
-    IOR is that at the D line. A measured colour is that of light which went in and out, through two
-    faces: Color, that of one face, is its square root.
+    IOR is the index at the D line. Light of the measured colour passed two faces, in and out. Color
+    is for one face, so it is the square root.
     """
     for name, page, description, tags in rows(CLEAR):
         spectrum = database.spectrum(page)
@@ -109,7 +110,7 @@ def dielectrics(database: RefractiveIndex, physical: PhysicallyBased) -> Iterato
 
 
 def diffuse(physical: PhysicallyBased) -> Iterator[tuple[str, str]]:
-    """Yield path and text of each matte material; the roughness is the source's."""
+    """Yield path and text of each matte material, with the roughness of the source."""
     for name, there, description, tags in rows(MATTE):
         albedo = physical.colour(there)
         roughness = float(physical.material(there)["roughness"])
@@ -138,20 +139,13 @@ def finishes() -> Iterator[tuple[str, str]]:
 
 
 def files(database: RefractiveIndex, physical: PhysicallyBased) -> dict[str, str]:
-    """Return the text of all files by their paths in FOLDER; raises SourceError."""
-    made: dict[str, str] = {}
-    for maker in (
-        conductors(database),
-        dielectrics(database, physical),
-        diffuse(physical),
-        finishes(),
-    ):
-        made.update(maker)
-    return made
+    """Return the text of each file by its path in FOLDER. Raises SourceError."""
+    makers = conductors(database), dielectrics(database, physical), diffuse(physical), finishes()
+    return dict(itertools.chain(*makers))
 
 
 def differences(made: dict[str, str], folder: Path) -> list[str]:
-    """Return, a line a file, what in `folder` is not as `made` has it."""
+    """Return one line for each file in `folder` that differs from `made`."""
     there = {
         path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
         for path in folder.glob("*/*.toml")
@@ -167,7 +161,7 @@ def differences(made: dict[str, str], folder: Path) -> list[str]:
 
 
 def write(made: dict[str, str], folder: Path) -> None:
-    """Make `folder` hold just the files `made`."""
+    """Make `folder` hold the files `made` and no others."""
     for path in folder.glob("*/*.toml"):
         if path.relative_to(folder).as_posix() not in made:
             path.unlink()
@@ -178,7 +172,7 @@ def write(made: dict[str, str], folder: Path) -> None:
 
 
 def main() -> int:
-    """Write the files, or check them, and return the exit code."""
+    """Write or check the files; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("refractiveindex", type=Path, help="clone of refractiveindex.info-database")
     parser.add_argument("physicallybased", type=Path, help="clone of physically-based-api")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds the albedo of the facets with which a rough matte surface has a measured total albedo.
+"""Finds the facet albedo that gives a rough matte surface its measured total albedo.
 
-Light that a facet throws onto another is coloured again. With e_k the part of a white surface's
-light that leaves at bounce k, the total albedo for facets of albedo r is the sum of e_k r^k. The
-oracle walks give e_k, in light from all directions (weighted by the cosine, as an even sky's is).
+Facets colour the light again at each bounce. If a white surface loses the part e_k of its light at
+bounce k, facets of albedo r give a total albedo of the sum of e_k r^k. The oracle's walks measure
+e_k under an even sky, whose light is weighted by the cosine.
 """
 
 from functools import cache
@@ -12,7 +12,7 @@ import numpy as np
 
 from osl.oracle import Diffuse, Surface, energies
 
-# Two seeds differ by less than 0.001 in a total albedo (a test compares them).
+# Total albedos of two seeds differ by less than 0.001 (a test compares them).
 _DIRECTIONS, _WALKS, _SEED = 64, 8192, 1
 _MAX_BOUNCES = 64
 
@@ -20,9 +20,9 @@ _MAX_BOUNCES = 64
 @cache
 def energy_by_bounce(roughness: float) -> np.ndarray:
     """Return e_1, e_2, ... of a white GGX surface; they sum to 1. `roughness` is 0 to 1."""
-    if roughness < 0.01:  # flat: every facet throws all of its light out
+    if roughness < 0.01:  # flat: all light leaves at the first bounce
         return np.array([1.0])
-    squared = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS  # of the cosine: the light of a sky
+    squared = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS  # squared cosines, even under a sky
     wi = np.stack([np.sqrt(1.0 - squared), 0.0 * squared, np.sqrt(squared)], axis=1)
     alpha = roughness * roughness
     surface = Surface(alpha, alpha, material=Diffuse())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours of reflectance spectra: linear Rec. 709 in daylight D65, by the CIE 1931 observer."""
+"""Turns reflectance spectra into linear Rec. 709, in daylight D65, by the CIE 1931 observer."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ _D65 = (
     63.3828,
 )
 
-# Amplitude, centre, and the widths below and above it, in nm, of the Gaussian lobes of x, y and z:
+# The Gaussian lobes of x, y and z: amplitude, centre, and the widths below and above it, in nm.
 # Wyman, Sloan, Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching
 # functions", table 1 (multi-lobe).
 _LOBES = (
@@ -54,7 +54,7 @@ def daylight(wavelengths: np.ndarray) -> np.ndarray:
 def colour(reflectances: np.ndarray) -> np.ndarray:
     """Return the linear Rec. 709 colour, shape (3), of reflectances at WAVELENGTHS.
 
-    White is exactly 1, 1, 1: what the analytic functions miss of the white point is scaled away.
+    White is exactly 1, 1, 1: a scale corrects the small error of the analytic functions.
     Colours outside Rec. 709 have channels below 0 or above 1.
     """
     weights = _REC709 @ (matching_functions(WAVELENGTHS) * daylight(WAVELENGTHS))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads what presets are made from: clones of the refractiveindex.info database and of
-physicallybased.info's repository, both CC0.
+"""Reads the sources of the presets: clones of the refractiveindex.info database and of
+physicallybased.info's repository. Both are CC0.
 """
 
 import json
@@ -13,9 +13,8 @@ from urllib.parse import urlencode
 
 import numpy as np
 
-# Measurements may leave out these ends of the visible range, in which the eye sees little; their
-# outermost values are used there.
-LOWEST, HIGHEST = 410.0, 700.0  # nm
+# Measurements may stop here, in nm. The eye sees little beyond, so the outermost values are used.
+LOWEST, HIGHEST = 410.0, 700.0
 
 _ENTRY = re.compile(r'\s*(?:- )?(SHELF|BOOK|PAGE|name|data): "?(.*?)"?\s*$')
 _MARKUP = re.compile(r"<[^>]*>")
@@ -23,16 +22,16 @@ _RANGE = re.compile(r"[:;] (?:n|k|n,k|n\(\w\)|n,k\(\w\))[ ,;].*$")
 
 
 class SourceError(ValueError):
-    """Data that is missing or cannot be read; says where, and what to do."""
+    """Data is missing or cannot be read. The message names the place and the remedy."""
 
 
 @dataclass(frozen=True)
 class Spectrum:
     """A page of the database: `n` and `k` return indices at wavelengths in nm.
 
-    `title` is the page's name without its range of wavelengths, `url` its address. `k` is None
-    where the page has none. Wavelengths outside the measured ones take the outermost value of a
-    table; of a formula they raise SourceError.
+    `title` is the page's name without its range of wavelengths, `url` its address. `k` is None if
+    the page has none. Outside the measured range, a table gives its outermost value and a formula
+    raises SourceError.
     """
 
     title: str
@@ -49,7 +48,7 @@ class RefractiveIndex:
 
     @cached_property
     def pages(self) -> dict[str, tuple[str, str]]:
-        """The titles, of book and page, and the data file of each page, by "shelf/book/page"."""
+        """Title (book: page) and data file of each page, by "shelf/book/page"."""
         catalogue = self.folder / "database" / "catalog-nk.yml"
         if not catalogue.is_file():
             raise SourceError(f"{catalogue} is missing: give a clone of the database")
@@ -69,7 +68,7 @@ class RefractiveIndex:
         return found
 
     def spectrum(self, page: str) -> Spectrum:
-        """Return the spectrum of "shelf/book/page"; raises SourceError where there is none."""
+        """Return the spectrum of "shelf/book/page"; raises SourceError if there is none."""
         if page not in self.pages:
             raise SourceError(f"{page} is not in the catalogue: correct the table of presets")
         title, file = self.pages[page]
@@ -93,7 +92,7 @@ class PhysicallyBased:
 
     @cached_property
     def materials(self) -> dict[str, dict]:
-        """What it has of each material, by name."""
+        """The entry of each material by name."""
         path = self.folder / "deploy" / "v2" / "materials.json"
         if not path.is_file():
             raise SourceError(f"{path} is missing: give a clone of physically-based-api")
@@ -101,7 +100,7 @@ class PhysicallyBased:
         return {material["name"]: material for material in data}
 
     def material(self, name: str) -> dict:
-        """Return the material called `name`; raises SourceError where there is none."""
+        """Return the material called `name`; raises SourceError if there is none."""
         if name not in self.materials:
             raise SourceError(f"physicallybased.info has no {name!r}: correct the table of presets")
         return self.materials[name]
@@ -114,7 +113,7 @@ class PhysicallyBased:
 
 
 def _blocks(path: Path) -> list[dict[str, list[str]]]:
-    """The blocks of the section DATA, each with the words of its entries; tables row by row."""
+    """The blocks of the section DATA: the lines of each entry by its key."""
     if not path.is_file():
         raise SourceError(f"{path} is missing: give a complete clone of the database")
     blocks, inside, key = [], False, ""
@@ -169,7 +168,7 @@ def _table(path: Path, at: np.ndarray, values: np.ndarray) -> Callable:
     return interpolated
 
 
-# The database's dispersion formulas, as its documentation numbers them: x is in um.
+# The dispersion formulas, numbered as in the database's documentation. x is in um.
 
 
 def _sellmeier(x: np.ndarray, c: list[float]) -> np.ndarray:

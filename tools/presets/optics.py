@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a surface of complex index n + i k reflects, and the three-channel values that stand for it.
+"""Reflectance of a surface of complex index n + i k, and three-channel values that stand for it.
 
 The F82 tint is defined by the reflectance at normal incidence and at the cosine 1/7, about 82
 degrees (Kutz, Hasan, Edmondson 2021, "Novel aspects of the Adobe Standard Material").
@@ -8,17 +8,18 @@ degrees (Kutz, Hasan, Edmondson 2021, "Novel aspects of the Adobe Standard Mater
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import least_squares
 
 from .colour import CHANNELS, WAVELENGTHS, colour
 from .database import Spectrum
 
 COS_82 = 1.0 / 7.0
 
-# The effective indices reflect at most this, which a finite index can.
+# No finite index reflects everything, so effective indices reflect at most this.
 MOST = 0.99
 
-# How much, as an error of reflectance, a factor of e in an effective index counts: it decides
-# between indices that look the same.
+# A factor of e in an effective index costs as much as this error of reflectance. It decides between
+# indices that look the same.
 _PULL = 3e-3
 
 
@@ -27,9 +28,9 @@ class Metal:
     """A metal in three channels, each array of shape (3).
 
     base_color, edge_tint -- of the F82 tint, in 0..1
-    n, k                  -- effective indices, which reflect `reflectance` and `reflectance_82`
+    n, k                  -- effective indices that reflect `reflectance` and `reflectance_82`
     n_channel, k_channel  -- the measured indices at the wavelengths CHANNELS
-    reflectance           -- linear Rec. 709 at normal incidence before it was limited to 0..1
+    reflectance           -- linear Rec. 709 at normal incidence, before the limit to 0..1
     reflectance_82        -- the same at the cosine 1/7
     """
 
@@ -75,40 +76,29 @@ def metal(spectrum: Spectrum) -> Metal:
 def effective_index(
     normal: float, edge: float, n_start: float, k_start: float
 ) -> tuple[float, float]:
-    """Return the n and k, near n_start and k_start, that reflect `normal` at normal incidence and
-    `edge` at the cosine 1/7: least squares in the logarithms of both, by Levenberg and Marquardt.
+    """Return the n and k that reflect `normal` at normal incidence and `edge` at the cosine 1/7.
 
-    Reflectances above MOST are taken for MOST.
+    They are near n_start and k_start: least squares in the logarithms, by Levenberg and Marquardt.
+    Reflectances above MOST count as MOST.
     """
-    wanted = np.array((min(normal, MOST), min(edge, MOST)))
-    start = np.log((max(n_start, 1e-3), max(k_start, 1e-3)))
+    wanted = np.minimum((normal, edge), MOST)
+    start = np.log(np.maximum((n_start, k_start), 1e-3))
 
     def residual(x: np.ndarray) -> np.ndarray:
         n, k = np.exp(x)
         found = np.array([reflectance(n, k, cosine) for cosine in (1.0, COS_82)])
         return np.concatenate((found - wanted, _PULL * (x - start)))
 
-    x, damping = start.copy(), 1e-3
-    error = residual(x)
-    for _ in range(200):
-        step = 1e-6
-        slopes = np.array([(residual(x + d) - error) / step for d in step * np.eye(2)]).T
-        square = slopes.T @ slopes
-        change = np.linalg.solve(square + damping * np.diag(np.diag(square)), -slopes.T @ error)
-        trial = residual(x + change)
-        if trial @ trial < error @ error:
-            x, error, damping = x + change, trial, 0.3 * damping
-        else:
-            damping *= 5.0
-        if np.abs(change).max() < 1e-9:
-            break
-    n, k = np.exp(x)
+    fitted = least_squares(residual, start, method="lm", ftol=1e-12, xtol=1e-12, gtol=1e-12)
+    n, k = np.exp(fitted.x)
     return float(n), float(k)
 
 
 def transmittance(spectrum: Spectrum, thickness: float) -> np.ndarray:
-    """Return the linear Rec. 709 colour in 0..1 of light through `thickness` mm, without the
-    losses by reflection at its faces."""
+    """Return the linear Rec. 709 colour in 0..1 of light through `thickness` mm.
+
+    Reflection at the faces is left out.
+    """
     path = thickness * 1e6  # nm
     passed = np.exp(-4.0 * np.pi * spectrum.k(WAVELENGTHS) * path / WAVELENGTHS)
     return np.clip(colour(passed), 0.0, 1.0)

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders the presets' pictures into addon/previews: by default those that are missing or old.
 
-A picture is old when the preset's values or the scene's script have changed since it was rendered;
-manifest.json beside the pictures holds what each was made from.
+A picture is old if the preset's values or the scene's script changed after it was rendered.
+manifest.json beside the pictures holds a fingerprint of both for each picture.
 """
 
 import argparse
 import hashlib
 import json
-import os
 import sys
 from pathlib import Path
 
@@ -19,6 +18,7 @@ from addon.core.presets.catalogue import presets, problems
 from addon.core.presets.files import Preset
 from addon.presets import icons as preset_icons
 from addon.presets.apply import NEW_VALUES, preset_material
+from scenes.leave import leave
 from scenes.render import messages_to
 
 from . import scene as preview_scene
@@ -29,27 +29,27 @@ _QUALITY = 82  # of WebP, in percent
 
 
 def manifest_path() -> Path:
-    """Return the file that holds, by preset, the fingerprint of its picture."""
+    """Return the path of the file that holds the pictures' fingerprints."""
     return preset_icons.FOLDER / "manifest.json"
 
 
 def fingerprint(preset: Preset) -> str:
-    """Return what tells the picture of a preset from that of other values or another scene."""
+    """Return a digest of what decides on the preset's picture: its values and the scene."""
     values = sorted({**NEW_VALUES[preset.kind], **preset.values}.items())
     scene = Path(preview_scene.__file__).read_text(encoding="utf-8")
     return hashlib.sha256(f"{preset.kind} {values} {scene}".encode()).hexdigest()[:16]
 
 
 def known_fingerprints() -> dict[str, str]:
-    """Return those of the pictures that there are, by identifier of the preset."""
+    """Return the fingerprints of the rendered pictures by preset identifier."""
     try:
-        return json.loads(manifest_path().read_text(encoding="utf-8"))
+        return json.loads(manifest_path().read_text(encoding="utf-8"))["pictures"]
     except FileNotFoundError:
         return {}
 
 
 def outdated() -> list[Preset]:
-    """Return the presets whose picture is missing or was made from something else."""
+    """Return the presets whose picture is missing or old."""
     known = known_fingerprints()
     return [
         preset
@@ -66,9 +66,9 @@ def leftovers() -> list[Path]:
 
 
 def render(chosen: list[Preset], log: Path) -> None:
-    """Render the pictures of these presets; Blender's own messages go to the file `log`.
+    """Render the pictures of these presets. Blender's own messages go to the file `log`.
 
-    Raises RuntimeError where Blender wrote no picture.
+    Raises RuntimeError if Blender wrote no picture.
     """
     if not chosen:
         return
@@ -93,16 +93,15 @@ def render(chosen: list[Preset], log: Path) -> None:
 
 
 def _note(preset: Preset) -> None:
-    """Write the manifest anew with the preset's fingerprint, without presets that are gone."""
+    """Add the preset's fingerprint to the manifest; drop presets that no longer exist."""
     known = {**known_fingerprints(), preset.identifier: fingerprint(preset)}
-    kept = {
-        item.identifier: known[item.identifier] for item in presets() if item.identifier in known
-    }
-    manifest_path().write_text(json.dumps(kept, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    names = sorted(item.identifier for item in presets() if item.identifier in known)
+    content = {"command": "make previews", "pictures": {name: known[name] for name in names}}
+    manifest_path().write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def complaints() -> list[str]:
-    """Return what is wrong with the pictures, with the remedy; empty where all is well."""
+    """Return what is wrong with the pictures, each with its remedy."""
     found = [f"{item.identifier}: no picture of today's values" for item in outdated()]
     found += [f"{path.name}: belongs to no preset, delete it" for path in leftovers()]
     size = sum(path.stat().st_size for path in preset_icons.FOLDER.glob("*.webp"))
@@ -112,10 +111,10 @@ def complaints() -> list[str]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Render or check what the command line asks for and return the exit code."""
+    """Do what the command line asks for; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     task = parser.add_mutually_exclusive_group()
-    task.add_argument("--check", action="store_true", help="render nothing, name what is amiss")
+    task.add_argument("--check", action="store_true", help="render nothing, name what is wrong")
     task.add_argument("--all", action="store_true", help="render all pictures anew")
     task.add_argument("--only", metavar="NAME", help="render this one, such as conductor/gold")
     options = parser.parse_args(arguments)
@@ -142,7 +141,4 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    code = main()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)  # bpy 4.5 was seen to hang while it takes itself down
+    leave(main())

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the asset library, a material for each preset, into build/assets.
+"""Builds the asset library, with a material for each preset, into build/assets.
 
-Blender 4.5 builds it, so that both versions open it; `make assets` and `make addon` call it.
+Blender 4.5 builds it so that both versions open it. `make assets` and `make addon` call it.
 """
 
 import argparse
 import hashlib
-import os
 import sys
 import uuid
 from pathlib import Path
@@ -14,6 +13,7 @@ from pathlib import Path
 from addon.core.kinds import KINDS
 from addon.core.presets.catalogue import presets, problems
 from addon.core.presets.files import Preset
+from scenes.leave import leave
 
 from .repack import repack
 
@@ -26,7 +26,7 @@ CATALOGUES = {
     "DIELECTRIC": "Microbounce/Glasses and Liquids",
     "DIFFUSE": "Microbounce/Matte Surfaces",
 }
-# Blender finds a catalogue by this, so it must stay the same from version to version.
+# Blender finds a catalogue by its UUID, so this must stay the same in all versions.
 _NAMESPACE = uuid.UUID("6d1f8f0e-0b5c-5c1e-9a57-1a9c5b3f7d42")
 _SOURCES = ("addon", "osl", "tools/release/assets.py", "tools/release/repack.py")
 
@@ -37,7 +37,7 @@ def catalogue_id(kind: str) -> str:
 
 
 def digest() -> str:
-    """Return what tells a library of these sources from that of others."""
+    """Return the digest of the sources that the library is built from."""
     found = hashlib.sha256()
     for source in _SOURCES:
         path = ROOT / source
@@ -50,7 +50,7 @@ def digest() -> str:
 
 
 def is_current(folder: Path) -> bool:
-    """Return whether the library in `folder` is there and was built from today's sources."""
+    """Return whether `folder` holds a library built from today's sources."""
     stamp = _stamp(folder)
     files = (folder / BLEND, folder / CATALOGUE_FILE, stamp)
     return all(file.is_file() for file in files) and stamp.read_text(encoding="utf-8") == digest()
@@ -59,8 +59,8 @@ def is_current(folder: Path) -> bool:
 def build(folder: Path) -> Path:
     """Build the library into `folder` and return the path of its .blend file.
 
-    The file that is open is lost. Raises RuntimeError where presets are damaged or a picture is
-    missing, and OSError where the folder cannot be written.
+    Closes the open file without saving it. Raises RuntimeError if a preset is damaged or a picture
+    is missing, and OSError if the folder cannot be written.
     """
     import bpy
 
@@ -71,7 +71,7 @@ def build(folder: Path) -> Path:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     materials = {_material(preset) for preset in presets()}
     blend = folder / BLEND
-    # This writes the materials and what they need alone: nothing of the window or this machine.
+    # Writes only the materials and what they need: nothing of the window or this machine.
     bpy.data.libraries.write(str(blend), materials, fake_user=True, compress=True)
     repack(blend)
     lines = ["VERSION 1", ""]
@@ -83,12 +83,12 @@ def build(folder: Path) -> Path:
 
 
 def _stamp(folder: Path) -> Path:
-    """Return the file beside `folder` that holds the digest of its sources."""
+    """Return the path of the file beside `folder` that keeps digest()."""
     return folder.with_suffix(".stamp")
 
 
 def _material(preset: Preset) -> object:
-    """Return the preset as a material that is marked as an asset."""
+    """Return a material of the preset's values, marked as an asset."""
     from addon.presets.apply import preset_material
 
     material = preset_material(preset)
@@ -125,7 +125,7 @@ def _set_preview(material: object, preset: Preset) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Build it, unless it is there from today's sources, and return the exit code."""
+    """Build the library unless it is up to date; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", type=Path, default=FOLDER, help="folder of the library")
     folder = parser.parse_args(arguments).output.resolve()
@@ -151,7 +151,4 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    code = main()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)  # bpy 4.5 was seen to hang while it takes itself down
+    leave(main())

@@ -18,9 +18,9 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def builder_script() -> Path:
-    """Return Blender's command line for extensions, which lies in the bpy package.
+    """Return the path of Blender's script that builds extensions, which lies in the bpy package.
 
-    Raises FileNotFoundError where this Python has no bpy or bpy has no builder.
+    Raises FileNotFoundError if this Python has no bpy or bpy has no builder.
     """
     spec = importlib.util.find_spec("bpy")
     if spec is None or spec.origin is None:
@@ -33,10 +33,10 @@ def builder_script() -> Path:
 
 
 def stage(folder: Path, library: Path | None = None) -> None:
-    """Lay out in `folder`, which must be empty, what the zip will hold.
+    """Copy the zip's content into `folder`, which must be empty.
 
-    library -- the folder of the asset library that goes into it, None for a zip without
-    Raises FileNotFoundError where the repository has no shader.
+    library -- the folder of the asset library that goes into it, None for a zip without one
+    Raises FileNotFoundError if the repository has no shader.
     """
     shutil.copytree(
         ROOT / "addon",
@@ -59,10 +59,10 @@ def stage(folder: Path, library: Path | None = None) -> None:
 
 
 def build(output: Path, work: Path, library: Path | None = None) -> Path:
-    """Build and validate the zip in folder `output` by way of folder `work`; return its path.
+    """Build and validate the zip in folder `output`, staged in folder `work`; return its path.
 
     library -- as in stage()
-    Raises subprocess.CalledProcessError where Blender's builder or validator refuses.
+    Raises subprocess.CalledProcessError if Blender's builder or validator refuses.
     """
     folder = work / "addon"
     if folder.exists():
@@ -83,7 +83,7 @@ def build(output: Path, work: Path, library: Path | None = None) -> Path:
 
 
 def main() -> int:
-    """Build into dist/, or where --output says, and return the exit code."""
+    """Build into dist/ or the folder of --output; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", type=Path, default=ROOT / "dist", help="folder of the zip")
     parser.add_argument(
@@ -95,7 +95,7 @@ def main() -> int:
     arguments = parser.parse_args()
     library = arguments.library.resolve()
     if not assets.is_current(library):
-        print("The zip is made without the asset library: `make assets` builds it (Blender 4.5)")
+        print("The zip has no asset library: `make assets` builds one with Blender 4.5")
         library = None
     try:
         archive = build(arguments.output.resolve(), arguments.work.resolve(), library)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compresses a .blend file harder than Blender does; Blender reads both alike.
+"""Compresses a .blend file harder than Blender does. Blender reads both alike.
 
-Frames of a fixed length, each compressed alone, are followed by a table of their lengths (the
-Zstandard seekable format), by which Blender finds a place in the file without reading it all.
+The file has the Zstandard seekable format: frames that are compressed one by one, then a table of
+their lengths. By the table Blender finds a place in the file without reading all of it.
 """
 
 import struct
@@ -16,7 +16,7 @@ _SKIPPABLE, _SEEKABLE = 0x184D2A5E, 0x8F92EAB1  # magic numbers of the format
 
 
 def repack(path: Path) -> None:
-    """Replace the compressed .blend file at `path`; raises zstandard.ZstdError for other files."""
+    """Compress the .blend file at `path` again. Raises zstandard.ZstdError for other files."""
     with path.open("rb") as file:
         reader = zstandard.ZstdDecompressor().stream_reader(file, read_across_frames=True)
         content = reader.read()

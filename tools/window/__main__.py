@@ -12,6 +12,8 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from scenes.leave import leave
+
 from .blender import NoWindowError, find_blender, need_display
 from .session import NODES, PROPERTIES, ROOT, run_session
 
@@ -60,7 +62,4 @@ def _pictures() -> int:
 
 
 if __name__ == "__main__":
-    code = main()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)  # bpy 4.5 was seen to hang at exit
+    leave(main())

@@ -24,7 +24,7 @@ class NoWindowError(RuntimeError):
 def find_blender() -> list[str]:
     """Return the command that starts Blender: the environment variable BLENDER, or from PATH.
 
-    Raises NoWindowError where there is none.
+    Raises NoWindowError if there is none.
     """
     command = shlex.split(os.environ.get("BLENDER", "")) or ["blender"]
     found = shutil.which(command[0])
@@ -48,7 +48,7 @@ def run_in_window(script: Path, settings: dict[str, object], seconds: float) -> 
     The script finds `settings` in the JSON file that is its first argument, and with them "screen":
     the file that holds the screen where that is Xvfb's, else "". It writes its result as JSON to
     the second. User files go to a folder that is deleted afterwards. The result's key
-    "printed" has what Blender wrote to the console. Raises NoWindowError where no window can be
+    "printed" has what Blender wrote to the console. Raises NoWindowError if no window can be
     opened, TimeoutError after `seconds`, RuntimeError where the script left no result.
     """
     blender = find_blender()

@@ -2,7 +2,7 @@
 """Runs in Blender: installs the extension, uses it in the window, and writes down what happened.
 
 Arguments after `--`: a JSON file with "archive" (the extension's zip), "folder" (for pictures) and
-"screen" (the file that is Xvfb's screen, "" where there is none); the JSON file for the result.
+"screen" (the file that is Xvfb's screen, "" if there is none); the JSON file for the result.
 """
 
 import faulthandler

@@ -30,7 +30,7 @@ def save_part(screen: Path, part: list[int], target: Path, quality: int = 75) ->
 def _pixels(screen: Path) -> np.ndarray:
     """Return the (height, width, 4) bytes of an X window dump, from its top row on.
 
-    Raises ValueError where it is of another form than Xvfb's with 24 bits a pixel.
+    Raises ValueError if it is of another form than Xvfb's with 24 bits a pixel.
     """
     data = screen.read_bytes()
     header = struct.unpack(">25I", data[:100])

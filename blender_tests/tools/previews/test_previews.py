@@ -60,7 +60,7 @@ def few(tmp_path, monkeypatch):
     monkeypatch.setattr(command, "presets", lambda: tuple(chosen))
     monkeypatch.setattr(command, "ROOT", tmp_path)
     kept = {item.identifier: known[item.identifier] for item in chosen}
-    command.manifest_path().write_text(json.dumps(kept))
+    command.manifest_path().write_text(json.dumps({"pictures": kept}))
     assert command.complaints() == []
     return folder
 
