@@ -43,7 +43,7 @@ _BLOCK = 5  # pixels on a side
 _NUDGE = 1e-5
 
 
-class Scene:
+class AnalysedScene:
     """The open scene's materials, which can be switched to a quality or to what was analysed."""
 
     def __init__(self, tolerance: float) -> None:
@@ -118,7 +118,9 @@ def _blocks(pictures: np.ndarray) -> np.ndarray:
     return whole.reshape(count, rows, _BLOCK, columns, _BLOCK, channels).mean(axis=(2, 4))
 
 
-def print_result(scene: Scene, errors: dict[str, tuple[float, float]], times: SampleTimes) -> None:
+def print_result(
+    scene: AnalysedScene, errors: dict[str, tuple[float, float]], times: SampleTimes
+) -> None:
     """Print the materials, then the table of times and errors and what it shows."""
     print(f"\n{'':18}{'share':>8}  {'proposed':18}{'off by':>8}  reason")
     for row in scene.report.rows:
@@ -177,8 +179,8 @@ def main() -> None:
         print(f"{time.perf_counter() - begin:5.0f} s  {text}", flush=True)
 
     mixed.build()
-    Scene(arguments.tolerance).switch("Walk")
-    scene = Scene(arguments.tolerance)  # of materials that are all in Walk
+    AnalysedScene(arguments.tolerance).switch("Walk")
+    scene = AnalysedScene(arguments.tolerance)  # of materials that are all in Walk
     tell("rendering the reference, Exact")
     pairs = {"Exact": scene.pictures("Exact", 4 * arguments.samples, first_seed=100)}
     errors = {}

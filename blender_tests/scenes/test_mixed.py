@@ -21,7 +21,7 @@ TOLERANCE = 0.03
 def test_the_measured_error_is_within_the_tolerance(report) -> None:
     """That of the converged picture against Exact, of two renders each; so is what is predicted."""
     mixed.build(COUNT, SIZE)
-    found = mixed_demo.Scene(TOLERANCE)
+    found = mixed_demo.AnalysedScene(TOLERANCE)
     predicted = found.predicted(mixed_demo.ANALYSED)
     assert 0.0 < predicted <= TOLERANCE
     wanted = found.pictures("Exact", 768, first_seed=100)
@@ -44,7 +44,7 @@ def test_it_takes_less_time_than_walk(report) -> None:
     since it warms Blender up."""
     scene = mixed.build(COUNT, (120, 80))
     scene.cycles.samples = 48
-    found = mixed_demo.Scene(TOLERANCE)
+    found = mixed_demo.AnalysedScene(TOLERANCE)
     seconds = {}
     for variant in (mixed_demo.ANALYSED, "Walk"):
         found.switch(variant)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the accuracy of each quality costs in time: ``make bench``, ``make bench-check``.
+"""Measures how much time the accuracy of each quality costs: ``make bench``, ``make bench-check``.
 
-`plan` says which scenes and variants are measured, and how long. A child process a scene, `child`,
-opens it with `stage`, renders with `measure` and keeps each result with `store`; `runner` starts
-the children. `errors`, `findings` and `curves` read errors, times and their ratios from the
-results, `targets` holds them against the project's aims, `check` against the ratios of an earlier
-run. `draw` makes plots, `tables` CSV and JSON files, and `page`, with `verdict`, the README of
-``docs/benchmarks``. `estimate` tells how long the whole takes; `synthetic` makes data for tests.
+`plan` lists the scenes, their variants and samples. `runner` starts a process per scene, `child`,
+which opens the scene with `stage`, renders it with `measure` and keeps each result with `store`.
+`findings` reads errors and times from the results as `curves`. `targets` compares them with the
+project's aims, `check` with the ratios of an earlier run. `draw` makes the plots, `tables` the CSV
+and JSON files, and `page`, with `verdict`, the README of ``docs/benchmarks``. `estimate` predicts
+how long a run takes. `gains` is a command of its own.
 """

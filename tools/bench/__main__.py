@@ -22,12 +22,12 @@ FOLDER = ROOT / "docs" / "benchmarks"
 CACHE = ROOT / "build" / "bench"
 RATIOS = FOLDER / "ratios.json"
 COMMAND = "python -m tools.bench"
-# Of the headline, as far as they were measured.
+# The headline shows these scenes if they were measured.
 HEADLINE = ("slab_0.6", "sun_white", "showcase")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line; returns the exit code: 0 fine, 1 slower or not measured, 2 wrong use."""
+    """Run the command line; return the exit code: 0 fine, 1 slower or not measured, 2 wrong use."""
     options = _options(arguments)
     started = time.perf_counter()
     name = _plan_name(options)
@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if name == "full" and not options.only:
             _record(_measured("quick", PLANS["quick"], folder, check.RECORDED))
     except KeyboardInterrupt:
-        print(f"\nInterrupted. What is done is kept in {folder}", file=sys.stderr)
+        print(f"\nInterrupted. Finished results are kept in {folder}", file=sys.stderr)
         return 130
     except (MissingResultError, check.RatiosError) as error:
         print(f"Error: {error}", file=sys.stderr)
@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def files(found: Mapping[str, SceneFindings], whole: bool) -> dict[str, str]:
-    """Names and contents of all files; without what needs all scenes where not ``whole``."""
+    """Contents of all files by name; only the scenes' own plots if not ``whole``."""
     made = {}
     with style.style():
         for name, one in found.items():
@@ -86,14 +86,14 @@ def files(found: Mapping[str, SceneFindings], whole: bool) -> dict[str, str]:
 def _measured(
     name: str, scenes: Sequence[Scene], folder: Path, repeat: int = 1
 ) -> dict[str, SceneFindings]:
-    """Measure what is missing and read all of it. Raises MissingResultError with what failed."""
+    """Measure what is missing; return all findings. Raises MissingResultError with what failed."""
     folder.mkdir(parents=True, exist_ok=True)
     scenes = [scene.repeated(repeat) for scene in scenes]
     log = folder / "blender.log"
     failures = run_scenes(name, scenes, folder, log, sys.stderr.isatty(), repeat)
     if failures:
         raise MissingResultError(
-            "not all scenes were measured; what was is kept.\n" + "\n".join(failures)
+            "not all scenes were measured. Finished results are kept.\n" + "\n".join(failures)
         )
     return read_scenes(scenes, folder)
 
@@ -109,24 +109,24 @@ def _record(found: Mapping[str, SceneFindings]) -> None:
 def _tell_estimate(trial: Mapping[str, SceneFindings]) -> None:
     for name in ("full", "quick"):
         minutes = estimate.seconds(PLANS[name], trial) / 60.0
-        print(f"The {name} plan takes about {minutes:.1f} minutes where nothing else runs.")
+        print(f"The {name} plan takes about {minutes:.1f} minutes if nothing else runs.")
 
 
 def _check(folder: Path) -> int:
     stored = check.read_ratios(RATIOS, this_machine().blender)
-    # Times of another day say nothing of today's.
+    # Only times of the same hour compare.
     shutil.rmtree(folder, ignore_errors=True)
 
     def measured(names: Collection[str], times: int) -> dict[str, SceneFindings]:
         return _measured("quick", [s for s in PLANS["quick"] if s.name in names], folder, times)
 
-    verdicts = check.settled(stored, measured)
-    for verdict in verdicts:
-        print(f"{'SLOWER' if verdict.slower else 'ok    '}  {verdict}")
-    slower = sum(verdict.slower for verdict in verdicts)
+    growths = check.settled(stored, measured)
+    for growth in growths:
+        print(f"{'SLOWER' if growth.slower else 'ok    '}  {growth}")
+    slower = sum(growth.slower for growth in growths)
     if slower:
-        print(f"Error: {slower} of {len(verdicts)} ratios grew past their margins. Where that is "
-              "meant, record them anew: --quick --record", file=sys.stderr)  # fmt: skip
+        print(f"Error: {slower} of {len(growths)} ratios grew past their margins. If you meant "
+              "that, record them anew: --quick --record", file=sys.stderr)  # fmt: skip
     return 1 if slower else 0
 
 
@@ -137,25 +137,28 @@ def _plan_name(options: argparse.Namespace) -> str:
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog=COMMAND,
-        description="Measure error over time of every quality and of Cycles' own closures; draw "
-        "plots, and write their numbers as CSV, JSON and a README.",
+        description="Measure error over time of every quality and of Cycles' own closures. Write "
+        "plots, a README, and the numbers as CSV and JSON.",
     )
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--quick", action="store_true", help="few scenes and samples, two minutes")
     how.add_argument(
         "--trial",
         action="store_true",
-        help="every scene with hardly a sample: does all of it work, how long would the rest take",
+        help="every scene with few samples, to see that all works and how long a run takes",
     )
     how.add_argument(
-        "--check", action="store_true", help="a quick run; fails where a stored ratio grew"
+        "--check", action="store_true", help="a quick run that fails if a stored ratio grew"
     )
     names = sorted({scene.name for plan in PLANS.values() for scene in plan})
     parser.add_argument(
-        "--only", nargs="+", metavar="SCENE", help=f"only these, and no README: {', '.join(names)}"
+        "--only",
+        nargs="+",
+        metavar="SCENE",
+        help=f"only these, and no README: {', '.join(names)}",
     )
     parser.add_argument(
-        "--record", action="store_true", help="store the ratios of the quick run instead of a page"
+        "--record", action="store_true", help="store the ratios of a quick run, write no page"
     )
     parser.add_argument("--output", type=Path, help="folder to write (default: docs/benchmarks)")
     parser.add_argument(

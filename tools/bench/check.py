@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the time ratios of a quick run against stored ones: what got slower, and by how much.
+"""Compares the time ratios of a quick run with stored ones: what got slower, and by how much.
 
-Seconds differ from machine to machine, ratios of two variants of one scene far less. Other work on
-the machine can only add to a processor time (it takes cache and shares cores), so that a variant
-counts with the least of its rounds, which a busy machine changes far less than their median.
+Seconds differ between machines. Ratios of two variants of one scene differ far less. Other work on
+the machine takes cache and shares cores, so it can only add to a processor time. Each variant
+therefore counts with the least of its rounds: load changes that far less than the median.
 
-The margin comes from the measured spread: three times the error of both ratios. A least time is
-off by about its distance from the second least (for times that fall off exponentially above a
-floor the two are equal in the mean). It is at least SMALLEST_MARGIN, for processors differ, and at
-most LARGEST_MARGIN, so that noise hides no slowdown beyond that.
+The margin is three times the measured error of both ratios. The error of a least time is about its
+distance from the second least. (The two are equal in the mean for times that fall off exponentially
+above a floor.) The margin is at least SMALLEST_MARGIN, because processors differ. It is at most
+LARGEST_MARGIN, so noise hides no larger slowdown.
 """
 
 import json
@@ -23,13 +23,13 @@ from .plan import CYCLES, CYCLES_SVM, EXACT, FITTED, ONE_WALK, SINGLE, WALK
 
 SMALLEST_MARGIN, LARGEST_MARGIN = 0.15, 0.25
 DEVIATIONS = 3.0
-# Times the plan's rounds: what looks slower after the first is measured on before it counts.
+# Multiples of the plan's rounds. A scene that looks slower after the first is measured on.
 REPEATS = (1, 3)
-# The same of what is stored, since every later check is held against it.
+# The same for stored ratios. They have more rounds because all later checks rest on them.
 RECORDED = 2
 _REMEDY = "record them with 'python -m tools.bench --quick --record'"
 
-# What is compared: scene, variant, and the variant that its time is divided by.
+# The compared ratios: scene, variant, and the variant that its time is divided by.
 CHECKED = (
     ("showcase", FITTED, CYCLES),
     ("showcase", FITTED, SINGLE),
@@ -48,25 +48,25 @@ CHECKED = (
 
 
 class RatiosError(RuntimeError):
-    """The stored ratios are missing or are not what they should be; the message has the remedy."""
+    """The stored ratios are missing or wrong. The message has the remedy."""
 
 
 @dataclass(frozen=True)
 class Ratio:
-    """A ratio of least times, and its error relative to it."""
+    """A ratio of least times, and its relative error."""
 
     value: float
     error: float
 
 
 def ratio(ours: Curve, theirs: Curve) -> Ratio:
-    """How many times as long a sample of `ours` takes; both want two rounds or more."""
+    """How many times as long a sample of `ours` takes. Both curves need two rounds or more."""
     (mine, next_mine, *_), (other, next_other, *_) = sorted(ours.cpu), sorted(theirs.cpu)
     return Ratio(mine / other, math.hypot(next_mine / mine - 1.0, next_other / other - 1.0))
 
 
 def ratios(found: Mapping[str, SceneFindings]) -> dict[str, Ratio]:
-    """All of CHECKED by their names; raises KeyError if a scene or variant was not measured."""
+    """The ratios of CHECKED by name. Raises KeyError if a scene or variant was not measured."""
     return {
         _name(scene, ours, theirs): ratio(found[scene].curves[ours], found[scene].curves[theirs])
         for scene, ours, theirs in CHECKED
@@ -82,8 +82,10 @@ def write_ratios(found: Mapping[str, Ratio], machine: Mapping[str, object]) -> s
 
 
 def read_ratios(path: Path, blender: str) -> dict[str, Ratio]:
-    """Stored ratios by name. Raises RatiosError, also where they are of another Blender than
-    `blender`, a version such as "5.2.3" of which the first two numbers count."""
+    """Stored ratios by name. Raises RatiosError.
+
+    blender -- a version such as "5.2.3". The ratios must have the same first two numbers.
+    """
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))
         theirs = str(stored["machine"]["blender"])
@@ -98,7 +100,7 @@ def read_ratios(path: Path, blender: str) -> dict[str, Ratio]:
     if theirs.split(".")[:2] != blender.split(".")[:2]:
         raise RatiosError(
             f"{path.name} was recorded with Blender {theirs}, this is {blender}: check with that "
-            f"one, or {_REMEDY}"
+            f"version, or {_REMEDY}"
         )
     bad = [
         name
@@ -114,8 +116,8 @@ def read_ratios(path: Path, blender: str) -> dict[str, Ratio]:
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """One ratio beside the stored one; ``change`` is relative, positive for slower."""
+class Growth:
+    """How much one ratio grew over the stored one."""
 
     name: str
     stored: Ratio
@@ -123,18 +125,18 @@ class Verdict:
 
     @property
     def change(self) -> float:
-        """0.2 for a ratio that grew by a fifth."""
+        """Relative change: 0.2 for a ratio that grew by a fifth, negative if it fell."""
         return self.found.value / self.stored.value - 1.0
 
     @property
     def margin(self) -> float:
-        """The change that is allowed."""
+        """The largest change that is allowed."""
         noise = DEVIATIONS * math.hypot(self.stored.error, self.found.error)
         return min(max(SMALLEST_MARGIN, noise), LARGEST_MARGIN)
 
     @property
     def scene(self) -> str:
-        """Of the quick plan."""
+        """The name of the scene in the quick plan."""
         return self.name.partition(":")[0]
 
     @property
@@ -150,29 +152,29 @@ class Verdict:
         )
 
 
-def compare(stored: Mapping[str, Ratio], found: Mapping[str, Ratio]) -> list[Verdict]:
-    """Every stored ratio beside the found one, the worst first."""
-    verdicts = [Verdict(name, stored[name], found[name]) for name in stored]
-    return sorted(verdicts, key=lambda one: one.margin - one.change)
+def compare(stored: Mapping[str, Ratio], found: Mapping[str, Ratio]) -> list[Growth]:
+    """The growth of every stored ratio, the worst first."""
+    growths = [Growth(name, stored[name], found[name]) for name in stored]
+    return sorted(growths, key=lambda one: one.margin - one.change)
 
 
 def settled(
     stored: Mapping[str, Ratio],
     measured: Callable[[Collection[str], int], Mapping[str, SceneFindings]],
-) -> list[Verdict]:
-    """`compare`, with more rounds of the scenes that look slower before they count.
+) -> list[Growth]:
+    """`compare`, after more rounds of the scenes that look slower.
 
-    measured -- findings of these scenes of the quick plan, with so many times its rounds
+    measured -- returns the findings of the named scenes, with a multiple of the quick plan's rounds
     """
     found: dict[str, SceneFindings] = {}
     names = {scene for scene, _, _ in CHECKED}
     for times in REPEATS:
         found |= measured(names, times)
-        verdicts = compare(stored, ratios(found))
-        names = {verdict.scene for verdict in verdicts if verdict.slower}
+        growths = compare(stored, ratios(found))
+        names = {growth.scene for growth in growths if growth.slower}
         if not names:
             break
-    return verdicts
+    return growths
 
 
 def _name(scene: str, ours: str, theirs: str) -> str:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures one scene in a process of its own: ``python -m tools.bench.child``.
 
-What is kept is not rendered again. On standard error a line ``STEP paths`` says that so many paths
-are done (Scene.work), ``KEPT paths`` that so many were done before.
+Kept results are not rendered again. On standard error, a line ``STEP paths`` counts the paths that
+were just rendered (Scene.work), and ``KEPT paths`` those of a kept result.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from .measure import Measure
 
 
 def main() -> None:
-    """Parse the arguments and do the job."""
+    """Measure the scene that the command line names."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("plan", choices=plan.PLANS)
     parser.add_argument("scene")
@@ -32,8 +32,7 @@ def main() -> None:
 
 
 def measure_scene(scene: plan.Scene, folder: Path, log: Path) -> None:
-    """Render all that `folder` lacks of a scene: its reference, then rounds, variants taking
-    turns."""
+    """Render what `folder` lacks of a scene: its reference, then rounds of all variants."""
     measure = Measure(scene, log)
     path = store.reference_path(folder, scene)
     reference = store.load(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Error over time of one variant of a scene, and how two of them compare."""
+"""Error over time of a scene's variants, and how two of them compare."""
 
 import math
 import statistics
@@ -9,22 +9,23 @@ import numpy as np
 
 from addon.core.cost.statistics import ErrorSplit
 
-# A median of as many rounds at least is told as a time.
+# Fewer rounds give no time worth reading.
 FEWEST_ROUNDS = 5
 
 
 @dataclass(frozen=True)
 class Curve:
-    """What was measured of a variant.
+    """The measured errors and times of a variant. Processor times are those of all threads.
 
     samples -- 1, 2, 4 ... samples a pixel
-    squared -- squared error relative to the reference's mean square, median of the rounds that went
-               so far; ``lowest`` and ``highest`` are the rounds' own; nan without a reference
-    cpu     -- seconds that all threads took for a sample, by round
-    wall    -- seconds that passed, by round
-    start   -- seconds that all threads took for the first render after the switch, by round
-    bias    -- of what it converges to; None if there are not the pictures to tell it
-    piece   -- seconds that all threads took for a render beside its samples, median of the rounds
+    squared -- squared error over the reference's mean square, at each of `samples`: the median of
+               the rounds that have as many; nan without a reference
+    lowest, highest -- the same of the best and of the worst round
+    cpu     -- processor seconds of a sample, by round
+    wall    -- seconds that passed during a sample, by round
+    start   -- processor seconds of the first render after the switch, by round
+    bias    -- error of the converged picture; None if too few pictures show it
+    piece   -- processor seconds of a render apart from its samples, median of the rounds
     """
 
     variant: str
@@ -40,26 +41,26 @@ class Curve:
 
     @property
     def a_sample(self) -> float:
-        """Seconds of processor time a sample, median of the rounds."""
+        """Processor seconds of a sample, median of the rounds."""
         return statistics.median(self.cpu)
 
     @property
     def spread(self) -> tuple[float, float]:
-        """The least and the most of the rounds' seconds a sample."""
+        """The least and the most of `cpu`."""
         return min(self.cpu), max(self.cpu)
 
     @property
     def seconds(self) -> tuple[float, ...]:
-        """Of processor time, at each number of samples."""
+        """Processor seconds at each of `samples`."""
         return tuple(count * self.a_sample for count in self.samples)
 
     @property
     def known(self) -> bool:
-        """Whether there is an error at all."""
+        """Whether an error was measured."""
         return not math.isnan(self.squared[0])
 
     def squared_at(self, seconds: float) -> float | None:
-        """Squared error at a time, straight between levels in both logarithms; None outside."""
+        """Squared error at a time, interpolated in both logarithms; None outside."""
         times = self.seconds
         if not self.known or not times[0] * (1 - 1e-9) <= seconds <= times[-1] * (1 + 1e-9):
             return None
@@ -71,9 +72,9 @@ class Curve:
         return None if squared is None else math.sqrt(squared)
 
     def seconds_to(self, error: float) -> float | None:
-        """The first time at which the error is at most `error`; None if it never is.
+        """The first time at which the error is at most `error`, at least that of one sample.
 
-        Where one sample is enough it is the time of one sample.
+        None if the error never is.
         """
         wanted = error**2
         times = self.seconds
@@ -90,8 +91,10 @@ class Curve:
 
 
 def time_ratios(ours: Curve, theirs: Curve) -> tuple[float, ...]:
-    """How many times as long a sample of `ours` takes, round by round: neighbours in time, so that
-    a load on the machine weighs on both."""
+    """How many times as long a sample of `ours` takes, round by round.
+
+    The two times of a round are neighbours, so load on the machine weighs on both.
+    """
     return tuple(a / b for a, b in zip(ours.cpu, theirs.cpu, strict=False))
 
 
@@ -101,22 +104,22 @@ def time_ratio(ours: Curve, theirs: Curve) -> float:
 
 
 def shared_times(one: Curve, other: Curve) -> tuple[float, float] | None:
-    """The span of time in which both have an error; None if there is no such time."""
+    """First and last time at which both have an error; None if there is none."""
     start = max(one.seconds[0], other.seconds[0])
     end = min(one.seconds[-1], other.seconds[-1])
     return (start, end) if start <= end and one.known and other.known else None
 
 
-def gain(ours: Curve, theirs: Curve, seconds: float) -> float | None:
-    """How many times smaller the squared error of `ours` is at equal time; None outside both."""
+def advantage(ours: Curve, theirs: Curve, seconds: float) -> float | None:
+    """How many times smaller the squared error of `ours` is at a time that both have, else None."""
     mine, other = ours.squared_at(seconds), theirs.squared_at(seconds)
     return None if mine is None or other is None else other / mine
 
 
-def gains(ours: Curve, theirs: Curve, count: int = 33) -> list[tuple[float, float]]:
-    """(seconds, gain) over the whole span that both share, evenly in its logarithm."""
+def advantages(ours: Curve, theirs: Curve, count: int = 33) -> list[tuple[float, float]]:
+    """(seconds, advantage) at `count` times that both have, evenly spaced in the logarithm."""
     span = shared_times(ours, theirs)
     if span is None:
         return []
     times = np.geomspace(*span, count)
-    return [(float(t), found) for t in times if (found := gain(ours, theirs, float(t)))]
+    return [(float(t), found) for t in times if (found := advantage(ours, theirs, float(t)))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws error over time of each scene, the sweeps, and the headline."""
+"""Draws the plots: error over time of each scene, the headline, and the sweeps."""
 
 import math
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tools.figures.draw import BOUNCE_COLOURS, FAINT, INK, PAPER, WIDTH, heading, place, svg
 
-from .curves import Curve, gain
+from .curves import Curve, advantage
 from .findings import SceneFindings
 from .plan import (
     BOUNCES,
@@ -31,7 +31,7 @@ from .plan import (
 )
 from .verdict import moment, times_text
 
-# Those of the figures; related variants share a colour and differ in their line.
+# The colours of docs/figures. Related variants share a colour and differ in their line.
 _BLUE, _ORANGE, _GREEN, _PURPLE, _ = BOUNCE_COLOURS
 COLOURS = {
     SINGLE: FAINT,
@@ -52,28 +52,28 @@ _HALO = [withStroke(linewidth=2.0, foreground=PAPER)]
 
 
 def draw_scene(found: SceneFindings) -> str:
-    """Error over time of all variants, with marks of equal time."""
-    page = Figure(figsize=(WIDTH, 4.6))
-    heading(page, found.scene.title, f"{note(found)} {_MARKS}")
-    axes = place(page, _LEFT, _TOP, 5.9, 3.2)
+    """Error over time of all variants, compared at one time."""
+    figure = Figure(figsize=(WIDTH, 4.6))
+    heading(figure, found.scene.title, f"{note(found)} {_MARKS}")
+    axes = place(figure, _LEFT, _TOP, 5.9, 3.2)
     shown = [curve for curve in found.curves.values() if curve.known]
     _curves(axes, shown, found.resolution)
     _marks(axes, shown, *moment(found))
     axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), handlelength=2.6)
-    return svg(page, f"{found.scene.title}: error over time")
+    return svg(figure, f"{found.scene.title}: error over time")
 
 
 def draw_headline(scenes: Sequence[SceneFindings]) -> str:
-    """A few scenes side by side, with the variants that matter."""
-    page = Figure(figsize=(WIDTH, 3.7))
+    """A few scenes side by side, with the main variants."""
+    figure = Figure(figsize=(WIDTH, 3.7))
     heading(
-        page,
+        figure,
         "Error over time",
         f"Relative L2 error over seconds of processor time. {_MARKS}",
     )
     wide = (WIDTH - _LEFT - _GAP * (len(scenes) - 1) - 0.15) / len(scenes)
     for column, found in enumerate(scenes):
-        axes = place(page, _LEFT + column * (wide + _GAP), 0.95, wide, 1.95)
+        axes = place(figure, _LEFT + column * (wide + _GAP), 0.95, wide, 1.95)
         names = (FITTED, WALK, ONE_WALK, WHOLE_WALK, SINGLE, CYCLES)
         shown = [found.curves[name] for name in names if name in found.curves]
         _curves(axes, shown, found.resolution, labelled=column == 0)
@@ -81,16 +81,18 @@ def draw_headline(scenes: Sequence[SceneFindings]) -> str:
         axes.set_title(found.scene.title, color=INK, fontsize=8)
         if column == 0:
             handles, labels = axes.get_legend_handles_labels()
-            page.legend(handles, labels, loc="lower center", ncols=len(labels), handlelength=2.6)
-    return svg(page, "Error over time")
+            figure.legend(handles, labels, loc="lower center", ncols=len(labels), handlelength=2.6)
+    return svg(figure, "Error over time")
 
 
 def draw_sweeps(found: dict[str, SceneFindings]) -> str | None:
-    """What the limit of bounces, the number of walks and the size of the picture cost; None if
-    none of that was measured over its whole range."""
-    page = Figure(figsize=(WIDTH, 3.9))
+    """Time over the bounce limit, the number of walks and the picture's size.
+
+    None if no sweep was measured over its whole range.
+    """
+    figure = Figure(figsize=(WIDTH, 3.9))
     heading(
-        page,
+        figure,
         "What bounces, walks and pixels cost",
         "Processor time of a sample; bars: the range of the rounds. Left and middle relative to "
         "the first point.",
@@ -103,7 +105,7 @@ def draw_sweeps(found: dict[str, SceneFindings]) -> str | None:
         ("Per cent of the showcase's width", "{} %", PERCENTAGES, ("sizes",)),
     )
     for column, (label, form, values, scenes) in enumerate(panels):
-        axes = place(page, _LEFT + column * (wide + gap), _TOP, wide, 2.0)
+        axes = place(figure, _LEFT + column * (wide + gap), _TOP, wide, 2.0)
         for line, name in zip(("-", "--"), scenes, strict=False):
             if name in found:
                 _sweep(axes, found[name], form, values, line, relative=column < 2)
@@ -120,12 +122,12 @@ def draw_sweeps(found: dict[str, SceneFindings]) -> str | None:
         if axes.lines:
             axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.22), fontsize=7, ncols=1,
                         handlelength=2.2)  # fmt: skip
-    drawn = any(axes.lines for axes in page.axes)
-    return svg(page, "What bounces, walks and pixels cost") if drawn else None
+    drawn = any(axes.lines for axes in figure.axes)
+    return svg(figure, "What bounces, walks and pixels cost") if drawn else None
 
 
 def note(found: SceneFindings) -> str:
-    """What an error is told against."""
+    """A sentence on the reference of the errors."""
     reference = found.scene.reference
     samples = found.scene.reference_samples
     against = {
@@ -157,7 +159,7 @@ def _curves(axes: Axes, curves: Sequence[Curve], resolution: float, labelled: bo
 
 
 def _plain_numbers(axis: Axis) -> None:
-    """Numbers as one writes them along a logarithmic axis, more of them where it is short."""
+    """Plain numbers along a logarithmic axis, more of them if it is short."""
     low, high = axis.get_view_interval()
     axis.set_major_locator(LogLocator(subs=(1.0,) if high / low > 300.0 else (1.0, 2.0, 5.0)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -165,8 +167,10 @@ def _plain_numbers(axis: Axis) -> None:
 
 
 def _marks(axes: Axes, curves: Sequence[Curve], name: str, seconds: float) -> None:
-    """A line at a time, and at each curve how many times less squared error it has there than the
-    curve of this name."""
+    """Mark a time, and at each curve how many times smaller its squared error is there.
+
+    name -- the variant that the curves are compared with
+    """
     baseline = next((curve for curve in curves if curve.variant == name), None)
     if baseline is None or baseline.error_at(seconds) is None:
         return
@@ -174,7 +178,7 @@ def _marks(axes: Axes, curves: Sequence[Curve], name: str, seconds: float) -> No
     axes.annotate(f"than {baseline.variant}", (seconds, 1.0), (3, -2), ("data", "axes fraction"),
                   "offset points", va="top", fontsize=6, color=FAINT)  # fmt: skip
     for curve in curves:
-        found = gain(curve, baseline, seconds)
+        found = advantage(curve, baseline, seconds)
         if found is None or curve is baseline:
             continue
         level = 100.0 * curve.error_at(seconds)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Errors of pictures against a reference, all relative to the reference's mean square.
 
-A reference is a dictionary with ``first`` and ``second``, two pictures (rows, columns, 3) of
-independent noise, ``mask`` (rows, columns), and by its name the picture of a variant that has one
-of its own. The oracle's pictures have little noise: there first and second are one and the same.
+A reference is a dictionary. ``first`` and ``second`` are two pictures (rows, columns, 3) of
+independent noise, and ``mask`` is (rows, columns). A variant may have a picture of its own, under
+its name. The oracle's pictures have little noise, so first and second are the same array there.
 """
 
 import numpy as np
@@ -16,8 +16,8 @@ Reference = dict[str, np.ndarray]
 def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") -> float:
     """Squared error of a picture, noise and bias together; nan if there is no reference.
 
-    The difference from one picture of the reference is multiplied with that from the other: their
-    own noise cancels in the mean.
+    It is the mean product of the differences from the reference's two pictures. Their own noise
+    cancels in that mean.
     """
     if "first" not in reference:
         return float("nan")
@@ -30,9 +30,9 @@ def squared_error(picture: np.ndarray, reference: Reference, variant: str = "") 
 def converged(
     pictures: list[np.ndarray], reference: Reference, variant: str = ""
 ) -> ErrorSplit | None:
-    """Error of what a variant converges to, from pictures of equal samples and independent noise.
+    """Error of a variant's converged picture; None without a reference or with under two pictures.
 
-    None without a reference or with fewer than two pictures.
+    pictures -- (rows, columns, 3) each, of equal samples and independent noise
     """
     if "first" not in reference or len(pictures) < 2:
         return None
@@ -42,10 +42,10 @@ def converged(
 
 
 def resolution(reference: Reference, error: np.ndarray | None = None) -> float:
-    """The squared error that the reference's own noise makes: below it nothing is told.
+    """The squared error of the reference's own noise, below which no error can be measured.
 
-    error -- standard error of the oracle's picture, like its pixels; None if two renders are the
-             reference, whose noise is of the size of their difference
+    error -- standard error of the oracle's pixels (rows, columns, 3). None if the reference is two
+             renders, because their difference shows their noise.
     """
     first, second = _pair(reference, "")
     mask = reference["mask"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long a plan would take on this machine, from the times of a trial run."""
+"""Predicts how long a plan takes on this machine, from the times of a trial run."""
 
 import statistics
 from collections.abc import Mapping, Sequence
@@ -9,10 +9,9 @@ from .plan import EXACT, Scene, levels
 
 
 def seconds(plan: Sequence[Scene], trial: Mapping[str, SceneFindings]) -> float:
-    """Seconds that the plan takes where nothing else runs.
+    """Seconds that the plan takes if nothing else runs, rather too many than too few.
 
-    Samples are shared among the cores; a render's start and the compiling of shaders are counted as
-    if one core alone did them, so that it comes out rather too long.
+    All cores share the samples. Starting a render and compiling shaders count as the work of one.
     """
     return sum(_scene(scene, trial[scene.name]) for scene in plan)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the results of a plan's scenes from where they are kept."""
+"""Reads the kept results of a plan's scenes as curves."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -15,20 +15,20 @@ from .errors import converged
 from .machine import Machine
 from .plan import Scene, Variant
 
-# Relative; what pictures in single precision tell. Exact in a white furnace has none at all.
+# Relative; single precision shows no smaller one. Exact in a white furnace has no error at all.
 SMALLEST_ERROR = 1e-5
 
 
 class MissingResultError(RuntimeError):
-    """A scene was not measured to its end; the message names it and the remedy."""
+    """A scene was not measured to its end. The message names it and the remedy."""
 
 
 @dataclass(frozen=True)
 class SceneFindings:
-    """A scene with its curves by the variants' names.
+    """A scene with its curves by variant name.
 
-    resolution -- the squared error that the reference's own noise makes; nan without a reference
-    pixels     -- that count
+    resolution -- squared error of the reference's own noise; nan without a reference
+    pixels     -- number of pixels in the mask
     """
 
     scene: Scene
@@ -71,8 +71,10 @@ def read_scene(scene: Scene, folder: Path) -> SceneFindings:
 def _curve(
     variant: Variant, runs: list[store.Result], reference: store.Result, floor: float
 ) -> Curve:
-    """The curve of a variant's rounds. An error below the reference's noise counts as that noise,
-    and one below SMALLEST_ERROR as that: nothing can be told below them."""
+    """The curve of a variant's rounds.
+
+    No error counts as smaller than the reference's noise or SMALLEST_ERROR.
+    """
     longest = max(runs, key=lambda run: run["samples"][-1])["samples"]
     by_level = [
         [float(run["squared_error"][level]) for run in runs if level < len(run["samples"])]
@@ -98,8 +100,8 @@ def _curve(
 
 
 def _bias(variant: Variant, runs: list[store.Result], reference: store.Result) -> ErrorSplit | None:
-    """From the pictures of rounds that went far enough, whose noise is independent."""
-    if variant.percentage:  # pictures of another size than the reference
+    """The error of the converged picture, from the rounds that kept a picture."""
+    if variant.percentage:  # the reference has another size
         return None
     pictures = [run["picture"] for run in runs if "picture" in run]
     return converged(pictures, reference, variant.name)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each change that made the shaders faster gains: today's shader against itself without it.
+"""Measures what each change that made the shaders faster gains; writes docs/benchmarks/gains.md.
 
-`make gains` writes docs/benchmarks/gains.md. A change is undone by a replacement in the source, or
-by a parameter.
+`make gains` times today's shader with and without the change. A replacement in the source, or a
+parameter, undoes the change.
 """
 
 import statistics
@@ -33,9 +33,9 @@ PERCENTAGE = 50  # of the showcase's width and height
 class Change:
     """One change, and how to undo it.
 
-    what    -- in words
+    what    -- the change in words
     stage   -- "metal", "glass 0.5" or "glass 0.7" (its roughness)
-    quality -- which it is measured at
+    quality -- measured with this Quality
     patches -- (text of today's shader, text without the change)
     values  -- (parameter's identifier, value) without the change
     """
@@ -54,16 +54,16 @@ _STRETCHED = "vector w = arrival.stretched;"
 _ONE_WALK = 'is_one_walk(accuracy, fitted || !raytype("camera"))'
 
 CHANGES = (
-    Change("metal that is not seen has two closures instead of three", "metal", "Fitted",
-           ((_UNSEEN, ""),)),
+    Change("metal that the camera does not see has two closures instead of three", "metal",
+           "Fitted", ((_UNSEEN, ""),)),
     Change("isotropic surfaces take any tangent", "metal", "Fitted", ((_ANY_FRAME, ""),)),
-    Change("curves are asked for only where a normal has to be bent", "metal", "Fitted",
+    Change("curves are evaluated only if a normal must be bent", "metal", "Fitted",
            ((_ASKED, "  z = corrected"),)),
-    Change("no further bounces where less than the tolerance is missing", "metal", "Fitted",
+    Change("no further bounces if less than the tolerance is missing", "metal", "Fitted",
            values=(("Tolerance", 0.0),)),
-    Change("no walk where less than the tolerance is missing, and walks end there", "metal", "Walk",
+    Change("walks end, or never start, if less than the tolerance is missing", "metal", "Walk",
            values=(("Tolerance", 0.0),)),
-    Change("the stretched view is computed once a vertex", "metal", "Walk",
+    Change("the stretched view is computed once per vertex", "metal", "Walk",
            ((_STRETCHED, "vector w = normalize(stretch(surface, arrival.v));"),)),
     Change("glass that the camera does not see takes one walk", "glass 0.5", "Fitted",
            ((_ONE_WALK, "is_one_walk(accuracy, 0)"), ("if (fitted && is_seen())", "if (fitted)"))),
@@ -82,7 +82,7 @@ def kind_of(stage: str) -> str:
 
 
 def opened(stage: str) -> list[variants.Material]:
-    """Open the showcase, all its metals GGX, or all glass of a roughness."""
+    """Open the showcase with all its metals GGX, or with glass of one roughness instead of them."""
     pictures.open_scene("showcase")
     bpy.context.scene.render.resolution_percentage = PERCENTAGE
     metals = variants.find_materials()
@@ -100,7 +100,7 @@ def opened(stage: str) -> list[variants.Material]:
 
 
 def measure(stage: str) -> dict[Change, SampleTimes]:
-    """Time all changes of a stage, those of each quality in one run, each beside "with"."""
+    """Time all changes of a stage. Those of a quality share one run, with today's as "with"."""
     changes = [change for change in CHANGES if change.stage == stage]
     materials = opened(stage)
     script = script_node(material_group(kind_of(stage)))
@@ -113,7 +113,7 @@ def measure(stage: str) -> dict[Change, SampleTimes]:
     def switch(quality: str, change: Change | None) -> None:
         script.bytecode, script.bytecode_hash = today
         if change and change.patches:
-            # Cycles keeps shaders by their hash.
+            # Cycles caches shaders by this hash.
             script.bytecode, script.bytecode_hash = bytecodes[change], f"{hash(change)}"
         for material in materials:
             material.set("Tolerance", material.kind.by_identifier["Tolerance"].default)
@@ -133,22 +133,22 @@ def measure(stage: str) -> dict[Change, SampleTimes]:
 
 
 def page(found: dict[Change, SampleTimes], machine: str) -> str:
-    """The page: a row a change."""
+    """The text of gains.md, with a row for each change."""
     rows = []
     for change, times in found.items():
         ratios = times.ratios(change.what, "with")
         middle = statistics.median(ratios)
         told = min(ratios) > 1.0 or max(ratios) < 1.0
-        gained = f"{1.0 - 1.0 / middle:.0%}" if told else "not told apart"
+        gained = f"{1.0 - 1.0 / middle:.0%}" if told else "no clear gain"
         spread = f"{middle:.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
         rows.append((change.what, change.stage, change.quality, spread, gained))
-    header = ("change", "showcase of", "Quality", "time without it over with it", "gain")
+    header = ("change", "showcase of", "Quality", "time without over with it", "gain")
     return wrap(f"""# What each change gained
 
-Measured on {machine} by `make gains`, which times today's shader against
-itself without the change: processor time of a sample, median and range of {ROUNDS} rounds in which
-both take turns. A gain is told where all rounds agree that there is one. What stratified walks gain
-in error is on [the page of errors](README.md): One walk there is not stratified.
+`make gains` measured this on {machine}. It times today's shader with and without each change, by
+the processor time of a sample. The numbers are the median and the range of {ROUNDS} rounds, in
+which both take turns. A gain counts if all rounds agree. For what stratified walks gain in error,
+see One walk on [the page of errors](README.md): it is not stratified.
 
 {table(header, rows)}""")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names the machine that times are measured on, but not whose it is: no host name, no paths."""
+"""Describes the machine that times are measured on, without host name or paths."""
 
 import os
 import platform
@@ -12,7 +12,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Machine:
-    """What decides on times: ``cpu`` model, ``cores`` that may be used, ``system``, ``blender``."""
+    """What times depend on: ``cpu`` model, usable ``cores``, ``system``, ``blender`` version."""
 
     cpu: str
     cores: int
@@ -20,7 +20,7 @@ class Machine:
     blender: str
 
     def as_dict(self) -> dict[str, str | int]:
-        """For JSON."""
+        """The fields, for JSON."""
         return asdict(self)
 
     def __str__(self) -> str:
@@ -37,7 +37,7 @@ def this_machine() -> Machine:
 
 @cache
 def cpu_model() -> str:
-    """The processor's own name, or its architecture where the system does not tell."""
+    """The processor's name, or its architecture if the system does not tell."""
     try:
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
             if line.startswith("model name"):

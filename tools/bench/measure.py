@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders one round of a variant, level by level, and takes its times and errors.
+"""Renders one round of a variant, level by level, and measures its times and errors.
 
-A round renders its samples in pieces: the first, the second, the next two, the next four and so on,
-which are samples of one and the same sequence (Cycles' sample subset). Their sums are the pictures
-at 1, 2, 4 ... samples, at the cost of the largest one. Rounds have seeds of their own.
+A round renders its samples in pieces: the first, the second, the next two, the next four and so on.
+All pieces are of one sequence (Cycles' sample subset). Their sums are the pictures at 1, 2, 4 ...
+samples, at the cost of the largest. Each round has its own seed.
 """
 
 import statistics
@@ -22,7 +22,7 @@ from .plan import Scene, Variant, levels
 from .stage import open_stage, picture_mask, reference_variant, switch_to
 from .store import Result
 
-# A reference's seeds: no round has them.
+# The seeds of a reference. No round has them.
 _REFERENCE_SEEDS = (1000, 1001)
 
 
@@ -37,10 +37,9 @@ class Measure:
         self._camera_x = bpy.context.scene.camera.location.x
 
     def reference(self) -> Result:
-        """Two pictures ``first`` and ``second`` (rows, columns, 3) whose noise is independent, the
-        same array twice where it is the oracle's; ``mask``; others by ``variant's name``; machine.
+        """A reference as errors.py describes it, with its ``resolution`` and the machine's fields.
 
-        Raises OSError if a file of the oracle's is missing.
+        Raises OSError if a reference picture of the oracle is missing.
         """
         machine = {key: np.array(value) for key, value in this_machine().as_dict().items()}
         name = self.scene.reference
@@ -53,7 +52,7 @@ class Measure:
         if not name:
             _, passes = self._picture(0, 0, 1, 1)
             return {"mask": picture_mask(passes), **machine}
-        # A white world shows 1 wherever the surface loses no light, without error.
+        # In a white world, a surface that loses no light shows exactly 1.
         white = name == "white"
         found = pictures.reference("furnace_clay_ggx_1" if white else name)
         mean, error = found["mean"], found["error"]
@@ -70,11 +69,11 @@ class Measure:
     def run(self, variant: Variant, turn: int, reference: Result) -> Result:
         """One round of a variant.
 
-        Arrays over the levels: ``samples``, ``squared_error`` (mean over the mask, relative to the
-        mean square of the reference; nan without one); ``cpu`` and ``wall``, seconds a sample;
-        ``start``, processor seconds of the first render, which compiles the shaders; ``piece``, of
-        a render beside its samples; ``picture`` at ``scene.paired`` samples, of rounds that have as
-        many.
+        ``samples``, ``squared_error`` -- arrays over the levels, as in Curve
+        ``cpu``, ``wall``   -- processor and passed seconds of a sample
+        ``start``   -- processor seconds of the first render, which compiles the shaders
+        ``piece``   -- processor seconds of a render apart from its samples
+        ``picture`` -- the picture at ``scene.paired`` samples, if the round has as many
         """
         top = self.scene.tops[turn]
         self._switch(variant)
@@ -113,10 +112,11 @@ class Measure:
         return self._picture(seed, 0, samples, samples)[0].astype(np.float32)
 
     def _picture(self, seed: int, first: int, count: int, top: int) -> tuple[np.ndarray, dict]:
-        """Render samples `first` ... of the sequence of `top`; (rows, columns, 3) and all passes.
+        """Render `count` samples from `first` on of a sequence of `top`.
 
-        The camera is moved aside by less than a thousandth of a pixel with the seed, so that the
-        shader's random numbers, which it draws from the place it is at, are others as well.
+        Returns the picture (rows, columns, 3) and all passes. The camera moves aside with the seed,
+        by less than a thousandth of a pixel. The shader draws its random numbers from the place it
+        shades, so they change too.
         """
         scene = bpy.context.scene
         cycles = scene.cycles
@@ -130,9 +130,9 @@ class Measure:
 
 
 def split_times(times: list[tuple[float, int]]) -> tuple[float, float]:
-    """Seconds a sample, and what a piece takes by itself, from (seconds, samples) of the pieces.
+    """Seconds of a sample, and of a piece apart from its samples, from (seconds, samples) of each.
 
-    The largest piece, the last, takes more than those of a single sample by its further samples.
+    The last piece is the largest. Its extra samples explain its extra time over a single sample.
     """
     seconds, count = times[-1]
     single = statistics.median([one for one, many in times if many == 1])

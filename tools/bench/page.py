@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README of ``docs/benchmarks``. All its numbers, and the words that depend on them, come from
-the data."""
+"""Writes the README of ``docs/benchmarks``, with all numbers from the data."""
 
 import math
 import statistics
@@ -26,7 +25,7 @@ from .plan import (
 from .targets import TOLD_AT, Target
 from .verdict import losses, moment, wins
 
-TO_REACH = (0.1, 0.05, 0.02)  # errors to which times are told
+TO_REACH = (0.1, 0.05, 0.02)  # the page has the times to reach these errors
 
 
 def page(found: Mapping[str, SceneFindings], aims: Sequence[Target]) -> str:
@@ -44,7 +43,7 @@ def page(found: Mapping[str, SceneFindings], aims: Sequence[Target]) -> str:
 
 
 def headline_table(found: Mapping[str, SceneFindings]) -> str:
-    """What a reader of the project's own README needs: a row a scene."""
+    """The table of docs/cost.md, a row for each scene."""
     header = (
         "scene", "time", "Cycles", "Fitted", "Walk", "Fitted's sample over Cycles'",
         "Walk's over Single's",
@@ -71,37 +70,37 @@ def _introduction(found: Mapping[str, SceneFindings]) -> str:
     one = next(iter(found.values()))
     rounds = [len(curve.cpu) for scene in found.values() for curve in scene.curves.values()]
     few = (
-        f" **There are fewer than {FEWEST_ROUNDS}: this is a trial, and its times mean little.**"
+        f" **Fewer than {FEWEST_ROUNDS} rounds: this is a trial, and its times mean little.**"
         if min(rounds) < FEWEST_ROUNDS
         else ""
     )
     return f"""# What accuracy costs in time
 
-Measured on {one.machine}. `make bench` measures anew and writes this page, the plots and the files;
-every number here, and every word that depends on one, is filled in from the data:
-[curves.csv](curves.csv) (error over time), [costs.csv](costs.csv) (time of a sample, bias),
-[results.json](results.json) (all of it). [What each change gained](gains.md) that made the shaders
-faster is measured by `make gains`.
+Measured on {one.machine}. `make bench` measures anew and writes this page, the plots and the files.
+Every number here comes from the data, and so does every verdict. [curves.csv](curves.csv) has
+error over time, [costs.csv](costs.csv) the time of a sample and the bias, and
+[results.json](results.json) everything. `make gains` measures
+[what each change gained](gains.md) that made the shaders faster.
 
-**Time** is that of the processor, of all threads together, which other work on the machine changes
-less than the time that passes; the files have both. The first render after each switch, which
-compiles the shaders, is left out and told by itself. A time of a sample is the median of
-{min(rounds)} rounds or more, in which the variants take turns; its range over the rounds stands
-beside it.{few} Denoiser and adaptive sampling are off, and nothing is clamped.
+**Time** is processor time, summed over all threads. Other work on the machine changes it less than
+the time that passes. The files have both. The first render after each switch compiles the shaders.
+It is left out, and has its own column. The time of a sample is the median of at least
+{min(rounds)} rounds, in which the variants take turns. Its range over the rounds is beside
+it.{few} Denoiser, adaptive sampling and clamping are off.
 
-**Error** is the root of the mean squared difference from the reference over its root mean square.
-A render's samples are those of one sequence, looked at after 1, 2, 4 ... of them. *Converged* is
-the error without noise, from independent renders (`addon/core/cost/statistics.py`), with its
-standard error. Below the reference's own noise, the dotted line of a plot, nothing is told.
+**Error** is the root mean square of the difference from the reference, over the reference's own
+root mean square. The samples of a render are one sequence, and the error is taken after 1, 2, 4 ...
+of them. *Converged* is the error without noise, from independent renders
+(`addon/core/cost/statistics.py`), with its standard error. A plot's dotted line is the reference's
+own noise. Errors below it cannot be measured.
 
 **Variants.** *{SINGLE}*, *{FITTED}*, *{WALK}* (4 walks, height-correlated) and *Exact* are our
-qualities; Exact is left out where the light is a sun without size, which it cannot hit. *{CYCLES}*
-and *{CYCLES_SVM}* are Cycles' own closure of the same values: Multiscatter GGX, for matte surfaces
-its Diffuse BSDF. Two plain estimators, made from our shader by a change of its source, stand for
-what the aims compare with. *{ONE_WALK}* has one random walk a shading point with the same kernel,
-and one candidate for its first vertex instead of four, so that nothing of it is stratified; its
-first bounce is Walk's. *{WHOLE_WALK}* takes all bounces, the first as well, from one walk, smoothed
-by the same kernel."""
+qualities. Exact cannot hit a sun without size, so scenes with such a sun lack it. *{CYCLES}* and
+*{CYCLES_SVM}* are Cycles' own closure with the same values: Multiscatter GGX, or Diffuse BSDF for
+matte surfaces. The aims compare with two plain estimators, which are our shader with a changed
+source. *{ONE_WALK}* takes one random walk per shading point, with the same kernel. Its first vertex
+has one candidate instead of four, so nothing is stratified. Its first bounce is Walk's.
+*{WHOLE_WALK}* takes all bounces from one walk, even the first, smoothed by the same kernel."""
 
 
 def _aims(aims: Sequence[Target]) -> str:
@@ -110,7 +109,7 @@ def _aims(aims: Sequence[Target]) -> str:
     texts = []
     for aim in dict.fromkeys(one.aim for one in aims):
         some = [one for one in aims if one.aim == aim]
-        rows = [(one.scene, _measured(one), _verdict(one)) for one in some]
+        rows = [(one.scene, _measured(one), _outcome(one)) for one in some]
         reached = sum(one.reached for one in some)
         title = f"**{aim}**: reached in {reached} of {len(some)}."
         texts.append(f"{title}\n\n{table(('scene', 'measured', ''), rows)}")
@@ -118,9 +117,9 @@ def _aims(aims: Sequence[Target]) -> str:
     every = "\n\n".join(texts)
     return f"""## The project's aims
 
-Reached are {reached} of {len(aims)}. A ratio of times is the median of the rounds, with their
-range. A gain at equal time is told at the time in which the plain estimator takes {TOLD_AT}
-samples, or at the nearest time that both have, with its range over all times that both have.
+{reached} of {len(aims)} aims are reached. A ratio of times is the median of the rounds, with their
+range. Errors at equal time are compared at the time of {TOLD_AT} samples of the plain estimator, or
+at the nearest time that both variants have. The range covers all times that both have.
 
 {every}"""
 
@@ -131,9 +130,9 @@ def _measured(aim: Target) -> str:
     return f"{_number(aim.value)} ({_number(aim.low)} to {_number(aim.high)} over {aim.span})"
 
 
-def _verdict(aim: Target) -> str:
+def _outcome(aim: Target) -> str:
     if math.isnan(aim.value):
-        return "not told"
+        return "unknown"
     verdict = "reached" if aim.reached else "**not reached**"
     if aim.low <= aim.limit <= aim.high:
         verdict += f", but not in all {aim.span}" if aim.reached else f", but in some {aim.span}"
@@ -144,8 +143,8 @@ def _losses(found: Sequence[SceneFindings]) -> str:
     lost, won = losses(found), wins(found)
     if not lost and not won:
         return ""
-    lines = "\n".join(f"- {line}" for line in lost) or "- Nowhere among these scenes."
-    better = "\n".join(f"- {line}" for line in won) or "- Nowhere among these scenes."
+    lines = "\n".join(f"- {line}" for line in lost) or "- In none of these scenes."
+    better = "\n".join(f"- {line}" for line in won) or "- In none of these scenes."
     return f"""## Where it loses against Cycles' own closures
 
 {lines}
@@ -163,7 +162,7 @@ def _headline(found: Mapping[str, SceneFindings]) -> str:
 
 ![Error over time of a few scenes](headline.svg)
 
-Errors at a time: that in which {ONE_WALK}, or, where there is none, Cycles takes {TOLD_AT} samples.
+Errors are those at the time of {TOLD_AT} samples of {ONE_WALK}, or of Cycles if a scene lacks it.
 
 {rows}"""
 
@@ -181,18 +180,18 @@ def _scene(one: SceneFindings) -> str:
     picture = f"![Error over time of all variants]({one.scene.name}.svg)\n\n" if drawn else ""
     return f"""## {one.scene.title}
 
-{picture}{note(one) if drawn else "There is no reference: times alone."}{_models(one)}
+{picture}{note(one) if drawn else "There is no reference, so there are only times."}{_models(one)}
 
 {table(header, rows)}"""
 
 
 def _models(one: SceneFindings) -> str:
     if one.scene.others:
-        return " The other models have the oracle's picture of their own."
+        return " The other models have their own picture from the oracle."
     if one.scene.directional and any("uncorrelated" in name for name in one.curves):
         return (
-            " There is a reference of the height-correlated model alone, so that the difference"
-            " of the other models counts as their error."
+            " The reference is of the height-correlated model, so the difference of the other"
+            " models counts as their error."
         )
     return ""
 
@@ -215,7 +214,7 @@ def _row(curve: Curve, cycles: Curve | None, base: Curve, seconds: float) -> tup
 
 
 def _sweeps(found: Mapping[str, SceneFindings]) -> str:
-    """Tables of what the limit of bounces, the walks and the size cost."""
+    """The tables of time over the bounce limit, the walks and the picture's size."""
     texts = []
     for name, form, values, words in (
         ("bounces", "MaxBounces {}", BOUNCES, "Max Bounces"),
@@ -239,8 +238,8 @@ def _sweeps(found: Mapping[str, SceneFindings]) -> str:
 
 ![Time over the limit of bounces, the number of walks, and the size](sweeps.svg)
 
-Milliseconds of a sample; in parentheses the ratio to the first column and its range over the
-rounds; where there is a reference, the error at the last number of samples.
+The numbers are the milliseconds of a sample. In parentheses is the ratio to the first column, with
+its range over the rounds. A scene with a reference also has the error after all samples.
 
 {every}"""
 
@@ -258,8 +257,7 @@ def _error(error: float | None) -> str:
 
 
 def _reached(curve: Curve, error: float) -> str:
-    """The time to an error; whether its bias keeps it from there, or it is later, or that is not
-    told, since the bias is about as large as the error."""
+    """The time to reach an error: "never" if the bias is larger, "?" if it is about as large."""
     if not curve.known:
         return "–"
     seconds = curve.seconds_to(error)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured: scenes, variants, samples and rounds. Knows nothing of Blender."""
+"""The plan of the benchmark: scenes, variants, samples and rounds. Needs no Blender."""
 
 import math
 from collections.abc import Iterable
@@ -10,7 +10,7 @@ UNCORRELATED, TRACKED = "Walk, uncorrelated", "Walk, height-tracked"
 ONE_WALK, WHOLE_WALK = "One walk", "Whole walk"
 CYCLES, CYCLES_SVM = "Cycles, OSL on", "Cycles, OSL off"
 
-# What a quality is called where the materials show Cycles' own closures.
+# The quality of variants that show Cycles' own closures.
 NATIVE = "Cycles"
 
 Value = float | int | str | tuple[float, float, float]
@@ -20,10 +20,10 @@ Value = float | int | str | tuple[float, float, float]
 class Variant:
     """One way to render a scene.
 
-    quality -- of our materials, or NATIVE for Cycles' own closures of the same values
+    quality -- of our materials, or NATIVE for Cycles' own closures with the same values
     values  -- (parameter's identifier, value) of our materials
-    patch   -- name of a change of the shader's source, see shaders.py; "" for none
-    percentage -- of the scene's own resolution; 0 leaves it
+    patch   -- name of a change of the shader's source in shaders.py; "" for none
+    percentage -- of the scene's resolution; 0 for the scene's own percentage
     """
 
     name: str
@@ -58,7 +58,7 @@ PERCENTAGES = (25, 50, 100)
 
 
 def swept(variant: Variant, parameter: str, values: Iterable[int]) -> tuple[Variant, ...]:
-    """`variant` once for each of `values` of a parameter, or of "percentage"."""
+    """One copy of `variant` for each of `values` of a parameter, or of "percentage"."""
     if parameter == "percentage":
         return tuple(replace(variant, name=f"{variant.name}, {v} %", percentage=v) for v in values)
     return tuple(
@@ -71,7 +71,7 @@ def swept(variant: Variant, parameter: str, values: Iterable[int]) -> tuple[Vari
     )
 
 
-# Of the stages' pictures at their full size.
+# Pixels of each stage's picture at its full size.
 PIXELS = {
     "slab": 64**2,
     "sun": 64**2,
@@ -84,17 +84,18 @@ PIXELS = {
 
 @dataclass(frozen=True)
 class Scene:
-    """One scene, under all its variants.
+    """One scene with all its variants.
 
     stage     -- what stage.py opens: "slab", "sun", "back", "furnace", "showcase" or "mesh"
     kind      -- of its material
     values    -- of its materials, by identifier
-    reference -- of blender_tests/references; "white" for radiance 1, "render" for a render of Exact
-    others    -- the references of variants that have one of their own, by name
-    tops      -- samples of each round; those of the first two rounds are the most
-    reference_samples -- of each of the two renders that a rendered reference is made of
+    reference -- a name in blender_tests/references; "white" for radiance 1, "render" for a render
+                 of Exact, "" for none
+    others    -- (variant's name, reference) of variants with a reference of their own
+    tops      -- samples of each round; the first two rounds have the most
+    reference_samples -- of each of the two renders that make a reference
     percentage        -- of the scene's own resolution
-    is_sweep          -- its variants differ in one number alone
+    is_sweep          -- its variants differ in one number only
     """
 
     name: str
@@ -112,39 +113,39 @@ class Scene:
 
     @property
     def directional(self) -> bool:
-        """Lit by a sun without size."""
+        """Whether a sun without size lights it."""
         return self.stage in ("slab", "sun", "back")
 
     @property
     def paired(self) -> int:
-        """Samples of the pictures that tell bias from noise: the first two rounds have as many."""
+        """Samples of the pictures that separate bias from noise. The first two rounds keep one."""
         return min(self.tops[:2])
 
     def work(self, variant: Variant | None, samples: int) -> int:
-        """Paths that a render starts, for the progress; without a variant that of the reference."""
+        """Paths that a render starts, for the progress bar. None stands for the reference."""
         percentage = variant.percentage if variant and variant.percentage else self.percentage
         return samples * PIXELS[self.stage] * percentage**2 // 100**2
 
     @property
     def whole_work(self) -> int:
-        """`work` of all rounds and of the reference's two renders."""
+        """Paths of all rounds and of the reference's two renders."""
         rounds = sum(self.work(variant, sum(self.tops)) for variant in self.variants)
         return rounds + self.work(None, 2 * self.reference_samples)
 
     def shortened(self, tops: tuple[int, ...], reference_samples: int = 0) -> "Scene":
-        """The same with other numbers of samples."""
+        """The same scene with other numbers of samples."""
         return replace(self, tops=tops, reference_samples=reference_samples)
 
     def repeated(self, times: int) -> "Scene":
-        """The same with so many times its rounds; what is kept of the first ones still holds."""
+        """The same scene with `times` as many rounds. Kept results of the first ones stay valid."""
         return replace(self, tops=self.tops * times)
 
     def with_variants(self, *names: str) -> "Scene":
-        """The same with these of its variants alone."""
+        """The same scene with only these of its variants."""
         return replace(self, variants=tuple(v for v in self.variants if v.name in names))
 
 
-# The first round shows the whole curve, the second tells bias from noise; five rounds give times.
+# The first round shows the whole curve, the second separates bias from noise. Five give times.
 FULL_TOPS = (1024, 128, 32, 32, 32)
 LARGE_TOPS = (256, 128, 16, 16, 16)
 SWEEP_TOPS = (32, 32, 32, 32, 32)
@@ -198,7 +199,7 @@ FURNACES = (
     Scene("furnace_glass", "Glass in a white furnace, α = 0.5", "furnace", "DIELECTRIC",
           UNDER_WIDE_LIGHT, FULL_TOPS, (("Roughness", math.sqrt(0.5)),), "white"),
 )  # fmt: skip
-# Cycles has one bounce of Beckmann and no more: all metals of the showcase are GGX here.
+# Cycles has only one bounce of Beckmann, so all metals of the showcase are GGX here.
 SHOWCASE = Scene("showcase", "Showcase of metals, all GGX", "showcase", "CONDUCTOR",
                  UNDER_WIDE_LIGHT, LARGE_TOPS, (("Distribution", "GGX"),), "render",
                  reference_samples=4096, percentage=25)  # fmt: skip
@@ -206,7 +207,7 @@ MESH = Scene("mesh", "2 million triangles of metal", "mesh", "CONDUCTOR",
              UNDER_WIDE_LIGHT, LARGE_TOPS, (), "render", reference_samples=2048)  # fmt: skip
 
 _WALK, _FITTED = Variant(WALK, WALK), Variant(FITTED, FITTED)
-# The variants of a sweep of bounces or walks, on scenes that are measured above too.
+# Sweeps of one parameter, on scenes that are also measured above.
 SWEEPS = {
     "bounces_showcase": replace(
         SHOWCASE, name="bounces_showcase", title="Bounce limit, showcase", tops=SWEEP_TOPS,
@@ -246,14 +247,14 @@ QUICK = (
     ),
 )  # fmt: skip
 
-# Everything with two rounds of few samples, to see that all of it works before a long run.
+# All scenes with two rounds of few samples, to see that all of it works before a long run.
 TRIAL = tuple(scene.shortened((4, 4), 16 if scene.reference_samples else 0) for scene in FULL)
 
 PLANS = {"full": FULL, "quick": QUICK, "trial": TRIAL}
 
 
 def levels(top: int) -> list[int]:
-    """Numbers of samples at which a render up to `top` samples, a power of two, is looked at."""
+    """The numbers of samples at which an error is taken: 1, 2, 4 ... `top`, a power of two."""
     if top < 1 or top & (top - 1):
         raise ValueError(f"top is {top}: give a power of two, such as 64")
     return [1 << power for power in range(top.bit_length())]

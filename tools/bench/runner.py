@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the plan: a child process a scene, one after the other, each watched for silence."""
+"""Runs the plan: a child process for each scene, one after the other. Ends silent children."""
 
 import queue
 import subprocess
@@ -14,17 +14,17 @@ from tools.figures.cache import ROOT
 
 from .plan import Scene
 
-# A child says after every variant of a round how far it is; the longest takes less than 3 minutes
-# on two busy cores, a reference less than 10.
+# A child reports after each variant of a round. On two busy cores the longest takes under 3
+# minutes, a reference under 10.
 SILENCE = 1200.0
-# A child that fails is started once more: it goes on behind what is kept.
+# A child that fails starts once more, and goes on after its kept results.
 ATTEMPTS = 2
-_SELDOM = 30.0  # seconds from one line of progress to the next in a log
-_SHOWN = 12  # lines of a failed child's messages
+_SELDOM = 30.0  # seconds between two lines of progress in a log
+_SHOWN = 12  # last lines of a failed child's messages
 
 
 class ChildFailedError(RuntimeError):
-    """A scene could not be measured; the message has the end of what its process said."""
+    """A scene could not be measured. The message has the last lines of its process."""
 
 
 def run_scenes(
@@ -37,17 +37,17 @@ def run_scenes(
     silence: float = SILENCE,
     command: Callable[..., list[str]] | None = None,
 ) -> list[str]:
-    """Measure the scenes of the plan of this name; return what went wrong, one text a scene.
+    """Measure scenes of the plan of this name; return a text for each scene that failed.
 
-    show    -- progress and the time left as a bar that moves, for a terminal, not now and then
-    repeat  -- how many times the plan's rounds; the scenes have that many already
-    silence -- seconds without a word after which a child is ended
-    command -- for tests: makes the child's command line from what child_command takes
+    show    -- whether the progress bar moves, for a terminal, or prints a line now and then
+    repeat  -- multiple of the plan's rounds, which `scenes` have already
+    silence -- a child that prints nothing for so many seconds is ended
+    command -- for tests: makes the child's command line, with the arguments of child_command()
     """
     command = command or child_command
     failures = []
     total = sum(scene.whole_work for scene in scenes)
-    # Scenes differ in what a path takes: the time that is left goes by the whole run.
+    # Paths of different scenes take different times, so the time left goes by the whole run.
     often = 0.1 if show else _SELDOM
     with tqdm(total=total, unit=" paths", unit_scale=True, smoothing=0, mininterval=often) as bar:
         for scene in scenes:
@@ -60,7 +60,7 @@ def run_scenes(
                         command(plan, scene.name, folder, log, repeat), silence
                     ):
                         if not new:
-                            bar.initial += paths  # no time went by for them
+                            bar.initial += paths  # they took no time
                         bar.update(paths)
                     break
                 except ChildFailedError as error:
@@ -78,7 +78,10 @@ def child_command(plan: str, scene: str, folder: Path, log: Path, repeat: int) -
 
 
 def _steps(command: list[str], silence: float) -> Iterator[tuple[bool, int]]:
-    """Yield whether paths are new, and how many, as a child says so. Raises ChildFailedError."""
+    """Yield (whether paths were just rendered, how many) as the child reports them.
+
+    Raises ChildFailedError.
+    """
     child = subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
     )
@@ -95,7 +98,7 @@ def _steps(command: list[str], silence: float) -> Iterator[tuple[bool, int]]:
             raise ChildFailedError(f"exit code {child.returncode}\n" + _end(said))
     except (queue.Empty, subprocess.TimeoutExpired):
         raise ChildFailedError(
-            f"it said nothing for {silence:g} s and was ended\n" + _end(said)
+            f"it printed nothing for {silence:g} s and was ended\n" + _end(said)
         ) from None
     finally:
         if child.poll() is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plain estimators for comparison, made from our shaders by small changes of their source."""
+"""Makes plain estimators for comparison, by small changes to the source of our shaders."""
 
 from collections.abc import Iterable
 
@@ -10,12 +10,11 @@ from addon.core.shader_source import inlined_source
 from addon.material.group import STAMP_KEY, material_group, script_node
 from addon.material.script import compile_source
 
-# By name, what is replaced by what.
+# (text of our shader, its replacement) by the name of the change.
 PATCHES = {
-    # With a single walk the numbers of its first vertex are then plain random ones: nothing is
-    # stratified.
+    # With a single walk, nothing is then stratified.
     "one candidate": (("#define CANDIDATES 4", "#define CANDIDATES 1"),),
-    # Every bounce of one walk, as where the camera does not look, but with the kernel of Walk.
+    # All bounces come from one walk, as for rays the camera does not send, with Walk's kernel.
     "whole walk": (
         (
             "accuracy.quality == QUALITY_EXACT || (accuracy.quality > QUALITY_SINGLE && one_walk)",
@@ -30,28 +29,28 @@ PATCHES = {
 
 
 def replaced_source(kind: str, patches: Iterable[tuple[str, str]]) -> str:
-    """The source of this kind's shader, the first text of each pair replaced by the second.
+    """The source of this kind's shader, with the first text of each pair replaced by the second.
 
-    Raises ValueError if the shader does not have just once what is to be replaced.
+    Raises ValueError unless the shader has each first text exactly once.
     """
     source = inlined_source(kind_named(kind).shader)
     for ours, other in patches:
         if source.count(ours) != 1:
             raise ValueError(
-                f"{kind}: the shader has {ours!r} {source.count(ours)} times, not once: bring the "
-                "patches in tools/bench up to date"
+                f"{kind}: the shader has {ours!r} {source.count(ours)} times, not once: update the "
+                "patches in tools/bench"
             )
         source = source.replace(ours, other)
     return source
 
 
 def patched_source(kind: str, patch: str) -> str:
-    """The source of this kind's shader, changed as PATCHES says; raises as `replaced_source`."""
+    """The source of this kind's shader with a change of PATCHES. Raises as replaced_source()."""
     return replaced_source(kind, PATCHES[patch])
 
 
 def patched_group(kind: str, patch: str) -> bpy.types.ShaderNodeTree:
-    """The node group of this kind with a changed shader; made once a file."""
+    """The node group of this kind with a changed shader, made once per file."""
     name = f"{kind} {patch}"
     known = bpy.data.node_groups.get(name)
     if known is not None:
@@ -59,8 +58,8 @@ def patched_group(kind: str, patch: str) -> bpy.types.ShaderNodeTree:
     bytecode = compile_source(patched_source(kind, patch))
     group = material_group(kind).copy()
     group.name = name
-    del group[STAMP_KEY]  # or it would pass for the group of today's shader
+    del group[STAMP_KEY]  # else it counts as the group of today's shader
     script = script_node(group)
     script.bytecode = bytecode
-    script.bytecode_hash = name  # Cycles keeps shaders by it
+    script.bytecode_hash = name  # Cycles caches shaders by it
     return group

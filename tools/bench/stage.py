@@ -14,14 +14,14 @@ from .shaders import patched_group
 
 
 def open_stage(scene: Scene) -> list[variants.Material]:
-    """Open `scene`, its values set, in place of the current file; return its materials."""
+    """Open `scene` with its values in place of the current file; return its materials."""
     materials = _OPEN[scene.stage](scene)
     for material in materials:
         for identifier, value in scene.values:
             material.set(identifier, value)
     render = bpy.context.scene.render
     render.resolution_percentage = scene.percentage
-    # Keeps meshes and shaders from one render to the next: times are then those of the samples.
+    # Keeps meshes and shaders between renders, so times are those of the samples.
     render.use_persistent_data = True
     cycles = bpy.context.scene.cycles
     cycles.use_denoising = cycles.use_adaptive_sampling = False
@@ -29,7 +29,7 @@ def open_stage(scene: Scene) -> list[variants.Material]:
 
 
 def switch_to(scene: Scene, variant: Variant, materials: list[variants.Material]) -> None:
-    """Show the variant, and nothing of the one before it."""
+    """Show the variant, with no setting left from the one before."""
     blender = bpy.context.scene
     blender.cycles.shading_system = variant.osl
     blender.render.resolution_percentage = variant.percentage or scene.percentage
@@ -50,21 +50,21 @@ def switch_to(scene: Scene, variant: Variant, materials: list[variants.Material]
 
 
 def reference_variant() -> Variant:
-    """What renders the references of scenes that the oracle has none of."""
+    """The variant that renders the reference of a scene without one from the oracle."""
     return Variant("reference", EXACT)
 
 
 def picture_mask(passes: dict) -> np.ndarray:
-    """The pixels that show a material of ours, for a scene whose objects carry an index."""
+    """The pixels that show a material of ours, by the objects' index."""
     return np.rint(passes["IndexOB.X"]) > 0
 
 
-# What variants set beside the quality.
+# The parameters that variants set besides Quality.
 _SWITCHED = ("Model", "MaxBounces", "Walks")
 
 
 def _use_group(material: variants.Material, group: bpy.types.ShaderNodeTree) -> None:
-    """Exchange the group, values kept: both have the same sockets."""
+    """Exchange the group but keep the values. Both groups have the same sockets."""
     node = material.node
     if node.node_tree != group:
         kept = {

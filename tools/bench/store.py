@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keeps each run of a variant on disk, so that an interrupted benchmark goes on where it was.
+"""Keeps each round of a variant on disk, so an interrupted benchmark can go on.
 
-A result is kept under a digest of all that it depends on: the scene, the variant and its samples,
-the shaders, the code that renders, the .blend file, the reference, Blender's version and the CPU.
+The file's name has a digest of all that the result depends on: the scene, the variant and its
+samples, the shaders, the code that renders, the .blend file, the reference, Blender's version and
+the CPU.
 """
 
 import hashlib
@@ -33,21 +34,18 @@ _BLEND = {
 
 
 def run_path(folder: Path, scene: Scene, variant: Variant, turn: int) -> Path:
-    """Where the result of round `turn` of a variant is kept."""
+    """The file of the result of round `turn` of a variant."""
     what = f"{variant!r} {scene.tops[turn]} {turn}"
     return folder / f"{scene.name}-{_digest(scene, what)}.npz"
 
 
 def reference_path(folder: Path, scene: Scene) -> Path:
-    """Where the reference, its mask and the machine's description are kept."""
-    what = (
-        f"reference {scene.reference} {scene.others!r} {scene.reference_samples} {scene.values!r}"
-    )
-    return folder / f"{scene.name}-reference-{_digest(scene, f'{what} {scene.percentage}')}.npz"
+    """The file of the reference, its mask and the machine's description."""
+    return folder / f"{scene.name}-reference-{_digest(scene, 'reference')}.npz"
 
 
 def save(path: Path, result: Result) -> None:
-    """Write a result whole or not at all."""
+    """Write a result, whole or not at all."""
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **result)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -55,7 +53,7 @@ def save(path: Path, result: Result) -> None:
 
 
 def load(path: Path) -> Result | None:
-    """Read a result; None if there is none, or none that can be read."""
+    """Read a result; None if it is missing or damaged."""
     try:
         with np.load(path, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
@@ -82,13 +80,13 @@ def _scene_digest(scene: Scene) -> str:
 
 @cache
 def _source_digest() -> str:
-    """Of the shaders and of the code that renders; what draws and writes does not count."""
+    """A digest of the shaders and of the code that renders, without what draws and writes."""
     code = {
         file
         for module in ("stage", "measure")
         for file in sources(Path(__file__).with_name(f"{module}.py"))
     }
-    # The plan is in each result's own digest, as far as the result depends on it.
+    # Each result's own digest has the part of the plan that it depends on.
     code.discard(Path(__file__).with_name("plan.py"))
     shaders = [*(ROOT / "osl").rglob("*.osl"), *(ROOT / "osl").rglob("*.h")]
     return f"{_of_files([*code, *shaders])} {version('bpy')} {cpu_model()}"

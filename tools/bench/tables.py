@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The benchmark's numbers as CSV and JSON."""
+"""Writes the benchmark's numbers as CSV and JSON."""
 
 import csv
 import io
@@ -14,7 +14,7 @@ from .targets import Target
 
 
 def curves(found: Mapping[str, SceneFindings]) -> str:
-    """Error over time: squared errors are relative to the reference's mean square."""
+    """The text of curves.csv: squared error, over the reference's mean square, by time."""
     header = (
         "scene", "variant", "samples", "processor_seconds", "squared_error", "lowest", "highest"
     )  # fmt: skip
@@ -31,7 +31,7 @@ def curves(found: Mapping[str, SceneFindings]) -> str:
 
 
 def costs(found: Mapping[str, SceneFindings]) -> str:
-    """Seconds of a sample: medians of the rounds, with their range; and the squared bias."""
+    """The text of costs.csv: seconds of a sample, as medians and range of the rounds, and bias."""
     header = (
         "scene", "variant", "rounds", "processor_seconds", "lowest", "highest", "wall_seconds",
         "first_render_seconds", "squared_bias", "squared_bias_error",
@@ -45,7 +45,7 @@ def costs(found: Mapping[str, SceneFindings]) -> str:
 
 
 def results(found: Mapping[str, SceneFindings], aims: Sequence[Target]) -> str:
-    """Everything, with the machine, as JSON; what is not known is null."""
+    """The text of results.json: everything, with the machine. Unknown values are null."""
     first = next(iter(found.values()))
     content = {
         "command": "make bench",

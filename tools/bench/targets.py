@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The project's aims of cost, held against what was measured: reached or not reached, never hidden.
+"""Compares the measured costs with the project's aims. Aims that are missed are shown too.
 
-The aims of time are held against every scene, those of error at equal time against surfaces under a
-sun without size. Two plain estimators stand for one unstratified walk a shading point with the same
-kernel: One walk, whose first bounce is ours, and Whole walk, which draws the first bounce too
+Aims of time apply to every scene. Aims of error at equal time apply to surfaces under a sun without
+size. They compare with two plain estimators, which take one unstratified walk per shading point
+with the same kernel. One walk has our first bounce. Whole walk draws the first bounce too
 (shaders.py).
 """
 
@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
-from .curves import gain, gains, time_ratio, time_ratios
+from .curves import advantage, advantages, time_ratio, time_ratios
 from .findings import SceneFindings
 from .plan import BOUNCES, CYCLES, FITTED, ONE_WALK, SINGLE, WALK, WHOLE_WALK
 
@@ -20,7 +20,7 @@ MOST_WALK = 2.0
 MOST_GROWTH = 1.3
 LEAST_WALK_GAIN = 10.0
 LEAST_FITTED_GAIN = 100.0
-# Gains are told at the time that one walk takes for so many samples.
+# Errors are compared at the time of so many samples of the baseline.
 TOLD_AT = 16
 
 
@@ -29,10 +29,9 @@ class Target:
     """One aim on one scene.
 
     aim   -- in words, such as "Fitted takes at most 1.1 times as long as Cycles"
-    value -- what was measured, nan if the two share no time; ``low`` and ``high`` its range over
-             rounds, or over all times
-    limit -- of the value; ``at_most`` tells on which side of it the aim lies
-    span  -- what the range is over: "rounds" or "times"
+    value -- the measured ratio; nan if the two variants share no time
+    low, high -- range of the value over `span`, "rounds" or "times"
+    limit -- the aimed value, an upper limit if `at_most`, else a lower one
     """
 
     aim: str
@@ -46,16 +45,16 @@ class Target:
 
     @property
     def reached(self) -> bool:
-        """Whether the value is on the aim's side of the limit; never where it is not known."""
+        """Whether the value keeps the limit. An unknown value never does."""
         return self.value <= self.limit if self.at_most else self.value >= self.limit
 
     def as_dict(self) -> dict[str, object]:
-        """For JSON."""
+        """The fields and `reached`, for JSON."""
         return {**asdict(self), "reached": self.reached}
 
 
 def targets(found: Mapping[str, SceneFindings]) -> list[Target]:
-    """All aims on all scenes that have what they need."""
+    """All aims, each on every scene that has its variants."""
     made = []
     few, many = (f"MaxBounces {count}" for count in (BOUNCES[1], BOUNCES[-1]))
     costs = (
@@ -92,13 +91,16 @@ def _cost(one: SceneFindings, ours: str, theirs: str, limit: float, aim: str) ->
 
 
 def _gain(one: SceneFindings, quality: str, baseline: str, limit: float) -> Target:
-    """Of a quality over a plain estimator at equal time, TOLD_AT or the nearest that both have."""
+    """The aim for a quality's error against a plain estimator's at equal time.
+
+    That time is TOLD_AT samples of the estimator, or the nearest that both have.
+    """
     ours, plain = one.curves[quality], one.curves[baseline]
-    every = gains(ours, plain)
+    every = advantages(ours, plain)
     value = low = high = math.nan
     if every:
         seconds = min(max(TOLD_AT * plain.a_sample, every[0][0]), every[-1][0])
         values = [found for _, found in every]
-        value, low, high = gain(ours, plain, seconds), min(values), max(values)
+        value, low, high = advantage(ours, plain, seconds), min(values), max(values)
     aim = f"{quality} has at least {limit:g} times less squared error than {baseline}"
     return Target(aim, one.scene.title, value, low, high, limit, False, "times")

@@ -13,7 +13,7 @@ import bpy
 from addon.core.analysis.step_errors import FILE
 from scenes.leave import leave
 
-from . import bounces, costs, pictures
+from . import bounces, converged, costs
 
 PARTS = ("left_out", "lost", "off", "costs")
 ABOUT = f"""\
@@ -57,7 +57,7 @@ def main() -> None:
         data["lost"] = list(bounces.rows(bounces.energy_lost))
         tell("energies of bounces measured")
     if "off" in parts:
-        data["off"] = pictures.rows(tell)
+        data["off"] = converged.rows(tell)
     if "costs" in parts:
         data["costs"], data["background"] = costs.measure()
         tell("costs measured")

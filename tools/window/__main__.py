@@ -45,7 +45,7 @@ def _test(blender: list[str]) -> int:
 
 
 def _pictures() -> int:
-    from .pictures import save_part
+    from .screen import save_part
 
     with TemporaryDirectory(prefix="microbounce_window_") as name:
         folder = Path(name)

@@ -38,7 +38,7 @@ def run_session(folder: Path) -> dict[str, object]:
 
 def _show_screens(folder: Path) -> None:
     """Save the screens where somebody can look at them."""
-    from .pictures import save_part
+    from .screen import save_part
 
     _SCREENS.mkdir(parents=True, exist_ok=True)
     for screen in folder.glob("*.xwd"):

@@ -44,7 +44,7 @@ def stored() -> dict[str, check.Ratio]:
     return check.ratios(busy(0, spread=0.02))
 
 
-def settled(stored, seed: int, change=lambda found: found) -> list[check.Verdict]:
+def settled(stored, seed: int, change=lambda found: found) -> list[check.Growth]:
     calls = []
 
     def measured(names, times):
@@ -52,9 +52,9 @@ def settled(stored, seed: int, change=lambda found: found) -> list[check.Verdict
         found = change(busy(seed, times * ROUNDS))
         return {name: found[name] for name in names}
 
-    verdicts = check.settled(stored, measured)
+    growths = check.settled(stored, measured)
     assert calls in ([1], [1, 3])
-    return verdicts
+    return growths
 
 
 def test_a_ratio_is_that_of_the_least_times():
@@ -73,27 +73,27 @@ def test_noise_passes(stored):
 @pytest.mark.parametrize(("scene", "ours", "theirs"), check.CHECKED)
 def test_a_slowdown_of_a_third_is_found_and_named(stored, scene, ours, theirs):
     for seed in range(1, 6):
-        verdicts = settled(stored, seed, lambda found: slowed(found, scene, ours, 1.35))
-        worst = {verdict.name for verdict in verdicts if verdict.slower}
+        growths = settled(stored, seed, lambda found: slowed(found, scene, ours, 1.35))
+        worst = {growth.name for growth in growths if growth.slower}
         assert f"{scene}: {ours} / {theirs}" in worst
 
 
 def test_of_what_changed_by_1_3_with_little_noise_each_is_found(stored):
     for scene, ours, theirs in check.CHECKED:
         found = slowed(busy(3, spread=0.02), scene, ours, 1.3)
-        (verdict,) = (
+        (growth,) = (
             v
             for v in check.compare(stored, check.ratios(found))
             if v.name == f"{scene}: {ours} / {theirs}"
         )
-        assert verdict.slower
-        assert 0.2 < verdict.change < 0.4
-        assert f"{verdict.change:.0%} slower" in str(verdict)
+        assert growth.slower
+        assert 0.2 < growth.change < 0.4
+        assert f"{growth.change:.0%} slower" in str(growth)
 
 
 def test_the_margin_follows_the_spread_between_its_bounds():
     def margin(stored: float, found: float) -> float:
-        return check.Verdict("a: b / c", check.Ratio(1.0, stored), check.Ratio(1.0, found)).margin
+        return check.Growth("a: b / c", check.Ratio(1.0, stored), check.Ratio(1.0, found)).margin
 
     assert margin(0.0, 0.01) == check.SMALLEST_MARGIN
     assert margin(0.04, 0.03) == pytest.approx(3 * np.hypot(0.04, 0.03))
@@ -101,9 +101,9 @@ def test_the_margin_follows_the_spread_between_its_bounds():
 
 
 def test_what_got_faster_passes(stored):
-    verdicts = settled(stored, 1, lambda found: slowed(found, "showcase", "Walk", 0.5))
-    assert not any(verdict.slower for verdict in verdicts)
-    assert any("faster" in str(verdict) for verdict in verdicts)
+    growths = settled(stored, 1, lambda found: slowed(found, "showcase", "Walk", 0.5))
+    assert not any(growth.slower for growth in growths)
+    assert any("faster" in str(growth) for growth in growths)
 
 
 def test_ratios_are_read_as_they_were_written(stored, tmp_path):

@@ -32,21 +32,21 @@ def test_time_to_an_error():
 
 def test_gain_at_equal_time_is_the_ratio_of_squares():
     ours, theirs = curve("Walk", 0.02, noise=0.1), curve("One walk", 0.01)
-    assert curves.gain(ours, theirs, 0.64) == pytest.approx(50.0)
-    every = curves.gains(ours, theirs)
+    assert curves.advantage(ours, theirs, 0.64) == pytest.approx(50.0)
+    every = curves.advantages(ours, theirs)
     assert [seconds for seconds, _ in every][:: len(every) - 1] == pytest.approx([0.02, 10.24])
     assert all(value == pytest.approx(50.0) for _, value in every)
-    assert curves.gain(ours, theirs, 0.015) is None
+    assert curves.advantage(ours, theirs, 0.015) is None
 
 
 def test_without_shared_time_or_reference_there_is_no_gain():
     fast, slow = curve("Single", 0.001, levels=3), curve("Walk", 1.0, levels=3)
     assert curves.shared_times(fast, slow) is None
-    assert curves.gains(fast, slow) == []
+    assert curves.advantages(fast, slow) == []
     unknown = timed(BALLS[0], {"Walk": 0.01}).curves["Walk"]
     assert not unknown.known
     assert unknown.seconds_to(0.1) is None
-    assert curves.gains(unknown, slow) == []
+    assert curves.advantages(unknown, slow) == []
 
 
 def test_ratios_of_times_go_round_by_round():
@@ -108,7 +108,7 @@ def test_losses_and_wins_are_told_where_they_are():
     worse = scene_of(BALLS[0], {"Fitted": curve("Fitted", 0.02, 0.3, 0.1), cycles.variant: cycles})
     text = "\n".join(losses([worse]))
     assert "at all times" in text
-    assert "converges to is 10.00 % off, Cycles 5.00 %; a sample takes 2.00 times" in text
+    assert "Fitted is 10.00 % off and Cycles 5.00 %. A sample takes 2.00 times" in text
     assert wins([worse]) == []
 
 

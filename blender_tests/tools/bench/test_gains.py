@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The changes whose gains are told: each is in today's shaders, and what is told of it."""
+"""Each change of gains.md is in today's shaders, and the page tells its gain."""
 
 import pytest
 
@@ -29,4 +29,4 @@ def test_the_page_tells_a_gain_and_where_there_is_none():
     times = SampleTimes(seconds, {})
     text = gains.page({first: times, second: times}, "Some processor")
     assert f"| {first.what} | metal | Fitted | 1.25 (1.20 to 1.30) | 20% |" in text
-    assert f"| {second.what} | metal | Fitted | 1.00 (1.00 to 1.01) | not told apart |" in text
+    assert f"| {second.what} | metal | Fitted | 1.00 (1.00 to 1.01) | no clear gain |" in text

@@ -83,7 +83,7 @@ def test_the_page_says_where_an_aim_is_not_reached():
     lines = text[text.index(aim) :].splitlines()
     (row,) = (line for line in lines[:6] if line.startswith(f"| {BALLS[0].title} |"))
     assert row.endswith("| 1.50 (1.50 to 1.50 over rounds) | **not reached** |")
-    assert "There is no reference: times alone." in text
+    assert "There is no reference, so there are only times." in text
     assert "| never |" in text  # Single to 10 %
     reached = findings()
     assert f"**{aim}**: reached in 2 of 2." in command.files(reached, whole=True)["README.md"]
@@ -137,8 +137,8 @@ def test_few_rounds_are_called_a_trial():
     one = found["showcase"]
     few = {name: replace(c, cpu=c.cpu[:2], wall=c.wall[:2]) for name, c in one.curves.items()}
     found["showcase"] = replace(one, curves=few)
-    assert "this is a trial" in command.files(found, whole=True)["README.md"]
-    assert "this is a trial" not in command.files({"showcase": one}, whole=True)["README.md"]
+    assert "**Fewer than 5 rounds:" in command.files(found, whole=True)["README.md"]
+    assert "**Fewer than" not in command.files({"showcase": one}, whole=True)["README.md"]
 
 
 def test_the_estimate_counts_samples_references_and_starts():

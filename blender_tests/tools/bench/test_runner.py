@@ -52,7 +52,7 @@ def test_a_silent_child_is_ended(tmp_path):
     failures = run(tmp_path, f"{STEP}; import time; time.sleep(60)", silence=0.4)
     assert time.perf_counter() - start < 20
     assert len(failures) == 2
-    assert all("it said nothing for 0.4 s and was ended" in failure for failure in failures)
+    assert all("it printed nothing for 0.4 s and was ended" in failure for failure in failures)
 
 
 @pytest.mark.parametrize("arguments", [("quick", "atlantis"), ("no plan", "showcase")])

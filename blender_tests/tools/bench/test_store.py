@@ -124,4 +124,4 @@ def test_a_patch_that_no_longer_fits_is_told(monkeypatch):
 def test_a_failed_scene_ends_the_command_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(command, "run_scenes", lambda *_: ["showcase: exit code 9"])
     assert command.main(["--trial", "--cache", str(tmp_path), "--output", str(tmp_path)]) == 1
-    assert "what was is kept.\nshowcase: exit code 9" in capsys.readouterr().err
+    assert "Finished results are kept.\nshowcase: exit code 9" in capsys.readouterr().err

@@ -6,7 +6,7 @@ import pytest
 from addon.core.analysis import step_errors
 from scenes.pictures import Widths
 from scenes.references import Case
-from tools.steps import costs, pictures
+from tools.steps import converged, costs
 
 REMEDY = "run `python -m tools.steps`"
 
@@ -23,7 +23,7 @@ def test_errors_are_todays(kind: str, distribution: str, alpha: float, step: str
     case = Case("sun", kind, Widths(alpha, alpha), distribution)
     number = step_errors.NAMES.index(distribution.upper())
     stored = step_errors.off(kind, number, step_errors.ISOTROPIC, step, (alpha, alpha))
-    assert stored == pytest.approx(pictures.measured(case, step), rel=0.15, abs=0.001), REMEDY
+    assert stored == pytest.approx(converged.measured(case, step), rel=0.15, abs=0.001), REMEDY
 
 
 @pytest.mark.nightly

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tools.window import blender
-from tools.window.pictures import save_part
+from tools.window.screen import save_part
 from tools.window.session import ROOT
 
 
