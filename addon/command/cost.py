@@ -98,7 +98,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         dest="folder",  # `output` is the stream for the result
         default=OUTPUT,
         metavar="FOLDER",
-        help="for cost.html, .csv, .json and .png (default: %(default)s, beside the file)",
+        help="for cost.html, .csv, .json and .svg (default: %(default)s, beside the file)",
     )
 
 

@@ -11,14 +11,13 @@ from pathlib import Path
 import bpy
 
 from ..core.cost.advice import recommendation
-from ..core.cost.flip import flip
-from ..core.cost.page import Pictures, to_html
+from ..core.cost.page import to_html
 from ..core.cost.plan import REFERENCE_FACTOR, Options, Variant, planned_variants, reference_variant
-from ..core.cost.png import to_srgb
+from ..core.cost.plot import draw_plot, svg
 from ..core.cost.results import TOO_SHORT, Cost, Measured, Report, Setting
 from ..core.cost.statistics import reference_noise, split_error
 from ..core.cost.tables import to_csv, to_json, to_text
-from .plot_picture import plot_png
+from .page_pictures import PagePictures
 from .reference_cache import load_reference, store_reference
 from .renderer import Rendered, Renderer
 
@@ -29,7 +28,7 @@ _FILES = {
     "page": "cost.html",
     "csv": "cost.csv",
     "text": "cost.txt",
-    "plot": "cost.png",
+    "plot": "cost.svg",
     "json": "cost.json",
 }
 
@@ -69,15 +68,11 @@ def measure_job(path: Path) -> None:
     _check_light(references)
     renders = _render_rounds(renderer, variants, options.rounds, tell)
     tell.start("Writing the report")
-    exposure = scene.view_settings.exposure
-    shown_reference = to_srgb(0.5 * (references[0] + references[1]), exposure)
-    measured, pictures = [], {}
-    for variant in variants:
-        result, shown = _evaluated(
-            variant, renders[variant.key], references, shown_reference, samples, exposure
-        )
-        measured.append(result)
-        pictures[variant.key] = shown
+    measured = [_evaluated(v, renders[v.key], references, samples) for v in variants]
+    shown = {}
+    for key, pairs in renders.items():
+        pictures = [full.picture for _, full in pairs]
+        shown[key] = pictures[0], sum(pictures) / len(pictures)
     quick = [m.title for m in measured if not m.is_timed]
     if quick:
         notes.append(f"Too short to be timed: {', '.join(quick)}. Give more samples.")
@@ -100,7 +95,9 @@ def measure_job(path: Path) -> None:
         memory_source=_memory_source(renders),
         notes=tuple(notes),
     )
-    _write(job["output"], setting, measured, shown_reference, pictures)
+    reference = 0.5 * (references[0] + references[1])
+    pictures = PagePictures(scene, path.parent, reference, shown)
+    _write(job["output"], setting, measured, pictures)
 
 
 def _render_rounds(
@@ -130,14 +127,8 @@ def _evaluated(
     variant: Variant,
     renders: list[tuple[Rendered, Rendered]],
     references: "list[numpy.ndarray]",
-    shown_reference: "numpy.ndarray",
     samples: int,
-    exposure: float,
-) -> tuple[Measured, Pictures]:
-    pictures = [full.picture for _, full in renders]
-    shown = to_srgb(pictures[0], exposure)
-    mean = to_srgb(sum(pictures) / len(pictures), exposure)
-    flipped = flip(shown_reference, shown)
+) -> Measured:
     more = samples - 1
     cost = Cost(
         wall=tuple(max(TOO_SHORT, (full.wall - one.wall) / more) for one, full in renders),
@@ -147,28 +138,24 @@ def _evaluated(
         start=tuple(max(0.0, one.wall - (full.wall - one.wall) / more) for one, full in renders),
         memory=max(full.memory for _, full in renders) or _process_peak(),
     )
-    split = split_error(pictures, references)
-    result = Measured(
-        variant.key, variant.title, variant.family, samples, cost, split, float(flipped.mean())
-    )
-    return result, Pictures(shown, (mean - shown_reference).mean(axis=2), flipped)
+    split = split_error([full.picture for _, full in renders], references)
+    return Measured(variant.key, variant.title, variant.family, samples, cost, split)
 
 
 def _write(
     folder: str,
     setting: Setting,
     measured: list[Measured],
-    reference: "numpy.ndarray",
-    pictures: dict[str, Pictures],
+    pictures: PagePictures,
 ) -> None:
     files = {kind: str(Path(folder, name)) for kind, name in _FILES.items()}
     sentence = recommendation(measured, setting.error)
     report = Report(setting, tuple(measured), sentence, files)
     contents = {
-        "page": to_html(report, reference, pictures).encode(),
+        "page": to_html(report, pictures.drawn).encode(),
         "csv": to_csv(report).encode(),
         "text": to_text(report).encode(),
-        "plot": plot_png(report),
+        "plot": svg(draw_plot(report)).encode(),
         "json": to_json(report).encode(),
     }
     for kind, content in contents.items():

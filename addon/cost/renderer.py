@@ -17,6 +17,7 @@ from ..core.cost.plan import Options, Variant, overridden
 from ..material.group import has_bytecode
 from ..material.variants import Placed, placed_in
 from ..scene.usage import is_used, material_uses
+from .page_pictures import read_picture
 from .still import hold_still
 
 # "Mem:0.50M, Peak:1.25M" up to Blender 4.5, "Mem: 11M" in Blender 5.
@@ -95,7 +96,7 @@ class Renderer:
             wall = time.perf_counter() - wall
         if not self._path.is_file():
             raise RuntimeError("Blender wrote no picture: is there room for temporary files?")
-        return Rendered(_read_picture(self._path), wall, processor, max(told, default=0.0))
+        return Rendered(read_picture(self._path), wall, processor, max(told, default=0.0))
 
     def _put_back(self) -> None:
         while self._kept:
@@ -183,17 +184,3 @@ def _listening(tell: Callable[[int], None]) -> Iterator[list[float]]:
         yield told
     finally:
         bpy.app.handlers.render_stats.remove(listen)
-
-
-def _read_picture(path: Path) -> "numpy.ndarray":
-    import numpy as np
-
-    image = bpy.data.images.load(str(path))
-    try:
-        width, height = image.size
-        values = np.empty(width * height * 4, np.float32)
-        image.pixels.foreach_get(values)
-    finally:
-        bpy.data.images.remove(image)
-    # Blender's first row is the lowest.
-    return values.reshape(height, width, 4)[::-1, :, :3].copy()

@@ -20,7 +20,6 @@ from .reference_cache import cache_file
 from .renderer import placed_nodes
 
 OUTPUT = "//microbounce_cost"
-IMAGE = "Microbounce Cost"
 
 
 class CostError(RunError):
@@ -163,21 +162,6 @@ def output_folder(output: str) -> Path:
         reason = error.strerror or error
         raise CostError(f"{folder} cannot be written: {reason}. Choose another folder") from error
     return folder
-
-
-def load_plot(report: dict[str, object]) -> bpy.types.Image:
-    """Show the plot of a report as the image IMAGE, and return it.
-
-    It is packed, but Blender saves it with the file only where something uses it.
-    """
-    before = bpy.data.images.get(IMAGE)
-    image = bpy.data.images.load(report["files"]["plot"])
-    if before is not None:
-        before.user_remap(image)  # an editor that shows it goes on to
-        bpy.data.images.remove(before)
-    image.name = IMAGE
-    image.pack()
-    return image
 
 
 def _notes(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures what accuracy costs in the open scene, and what belongs to that."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
@@ -175,12 +176,9 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
         return CostRun(context.scene, context.view_layer, options, self.output)
 
     def finish(self, context: bpy.types.Context, result: dict[str, object]) -> set[str]:
-        """Keep the report for the panel, and show its plot."""
-        from ..cost.run import load_plot
-
+        """Keep the report for the panel."""
         global _last
         _last = result
-        load_plot(result)
         redraw_panels(context)
         self.report({"INFO"}, result["sentence"])
         return {"FINISHED"}
@@ -208,13 +206,11 @@ class MICROBOUNCE_OT_clear_cost_cache(bpy.types.Operator):
 
 
 class MICROBOUNCE_OT_show_cost_plot(Polled, bpy.types.Operator):
-    """Show the plot in an Image Editor."""
+    """Open the plot."""
 
     bl_idname = "microbounce.show_cost_plot"
     bl_label = "Show Plot"
-    bl_description = (
-        "Show the plot of the last measurement in an Image Editor, in a new window if there is none"
-    )
+    bl_description = "Open the plot of the last measurement in the program that shows SVG files"
     bl_options = {"REGISTER"}
 
     @classmethod
@@ -223,37 +219,12 @@ class MICROBOUNCE_OT_show_cost_plot(Polled, bpy.types.Operator):
         return "" if _last is not None else "There is no plot: press Measure Cost first"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Read it anew, for undo and other files take it away, and show it."""
-        from ..cost.run import load_plot
-
-        try:
-            image = load_plot(_last)
-        except RuntimeError:
-            self.report({"ERROR"}, f"{_last['files']['plot']} cannot be read: measure anew")
+        """Open the file."""
+        path = _last["files"]["plot"]
+        if not Path(path).is_file():
+            self.report({"ERROR"}, f"{path} is gone: measure again")
             return {"CANCELLED"}
-        area = _image_editor(context)
-        if area is None:
-            self.report({"WARNING"}, f"No window opens: choose '{image.name}' in an Image Editor")
-            return {"FINISHED"}
-        area.spaces.active.image = image
-        self.report({"INFO"}, f"'{image.name}' is in the Image Editor")
-        return {"FINISHED"}
-
-
-def _image_editor(context: bpy.types.Context) -> bpy.types.Area | None:
-    """Return an Image Editor, rather in this window than in another, else in a new one.
-
-    None where no window can be opened.
-    """
-    manager = context.window_manager
-    windows = sorted(manager.windows, key=lambda window: window != context.window)
-    areas = [area for window in windows for area in window.screen.areas]
-    found = next((area for area in areas if area.ui_type == "IMAGE_EDITOR"), None)
-    if found is None and bpy.ops.wm.window_new.poll():
-        bpy.ops.wm.window_new()
-        found = manager.windows[-1].screen.areas[0]
-        found.ui_type = "IMAGE_EDITOR"
-    return found
+        return bpy.ops.wm.path_open(filepath=path)
 
 
 CLASSES = (

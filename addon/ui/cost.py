@@ -93,7 +93,6 @@ def _draw_report(
         for text in _cells(row):
             grid.label(text=text)
     box.operator(MICROBOUNCE_OT_show_cost_plot.bl_idname, icon="IMAGE_DATA")
-    box.label(text=f"It is the image '{_plot_name()}'", icon="BLANK1")
     buttons = box.row(align=True)
     page = Path(report["files"]["page"])
     for text, path in (("Open Report", page), ("Open Folder", page.parent)):
@@ -114,12 +113,6 @@ def _cells(row: dict[str, object]) -> tuple[str, ...]:
         bias,
         f"{100 * row['noise']:.2g} %",
     )
-
-
-def _plot_name() -> str:
-    from ..cost.run import IMAGE
-
-    return IMAGE
 
 
 def _spent(seconds: float | None) -> str:

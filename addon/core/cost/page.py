@@ -1,48 +1,48 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A report as a page of HTML that holds everything itself: style, plot and pictures."""
 
+import base64
 import html
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from .page_style import SCRIPT, STYLE
 from .plot import color_of, draw_plot, svg
-from .png import data_uri, rgb_png, rising_png, shrunk, signed_png
 from .results import Measured, Report
 from .tables import cells, headings, sort_keys
 
 MOST_BYTES = 3_000_000
+ENLARGED = 4.0  # a difference is shown this many times as large; 1 is the range of the display
 # Widths of a picture in pixels, the largest first: as large as the page may grow.
 _WIDTHS = (640, 480, 400, 320, 260, 200, 140, 90, 40)
-# Times that a difference is enlarged, as parts of what the display shows.
-_ENLARGED = 4.0
 
 
 @dataclass(frozen=True)
 class Pictures:
-    """What a page shows of a variant, display-referred sRGB from 0 to 1.
+    """What a page shows of a variant, as PNG.
 
-    picture    -- one render, (height, width, 3)
-    difference -- the mean of all renders less the reference, mean of the channels, (height, width)
-    flip       -- FLIP of the render against the reference, (height, width)
+    picture    -- one render
+    difference -- the mean of all renders less the reference, in colours
     """
 
-    picture: "numpy.ndarray"
-    difference: "numpy.ndarray"
-    flip: "numpy.ndarray"
+    picture: bytes
+    difference: bytes
 
 
-def to_html(report: Report, reference: "numpy.ndarray", pictures: dict[str, Pictures]) -> str:
-    """Return the page, at most MOST_BYTES long; `pictures` are by the variants' keys."""
+# Draws the reference and, by the variants' keys, their pictures, at most so many pixels wide.
+Drawer = Callable[[int], tuple[bytes, dict[str, Pictures]]]
+
+
+def to_html(report: Report, drawer: Drawer) -> str:
+    """Return the page, at most MOST_BYTES long."""
     for width in _WIDTHS:
-        page = _page(report, reference, pictures, width)
+        page = _page(report, *drawer(width))
         if len(page.encode()) <= MOST_BYTES:
             break
     return page
 
 
-def _page(
-    report: Report, reference: "numpy.ndarray", pictures: dict[str, Pictures], width: int
-) -> str:
+def _page(report: Report, reference: bytes, pictures: dict[str, Pictures]) -> str:
     setting = report.setting
     title = html.escape(f"What accuracy costs: {setting.file}")
     notes = "".join(f"<li>{html.escape(note)}</li>" for note in setting.notes)
@@ -67,10 +67,10 @@ are those of {setting.samples} samples, median of {setting.rounds} rounds, witho
 render; Processor is the time of all threads together. A question mark: the noise leaves open
 whether the bias is below the target. Click a heading to sort.</p></section>
 <section><h2>Pictures</h2><div class="cards">
-<article class="reference"><h3>Reference</h3>{_figure(rgb_png(shrunk(reference, width)), "")}
+<article class="reference"><h3>Reference</h3>{_figure(reference, "")}
 <p class="hint">{html.escape(setting.reference)}, {setting.reference_samples} samples, noise
 {100 * setting.reference_noise:.2f} %.</p></article>
-{"".join(_card(report, v, pictures[v.key], width) for v in report.ranked() if v.key in pictures)}
+{"".join(_card(report, v, pictures[v.key]) for v in report.ranked() if v.key in pictures)}
 </div></section>
 <section><h2>How it was measured</h2>{_facts(report)}<ul>{notes}</ul></section>
 <script>{SCRIPT}</script>
@@ -97,24 +97,21 @@ def _table(report: Report) -> str:
     return f"<table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
 
 
-def _card(report: Report, variant: Measured, shown: Pictures, width: int) -> str:
+def _card(report: Report, variant: Measured, shown: Pictures) -> str:
     swatch = f'<i style="background:{color_of(report, variant)}"></i>'
     figures = [
-        _figure(rgb_png(shrunk(shown.picture, width)), "picture"),
-        _figure(
-            signed_png(_ENLARGED * shrunk(shown.difference, width)),
-            f"difference, {_ENLARGED:g} times: blue darker, red brighter",
-        ),
-        _figure(rising_png(shrunk(shown.flip, width)), f"FLIP, mean {variant.flip:.3f}"),
+        _figure(shown.picture, "picture"),
+        _figure(shown.difference, f"difference, {ENLARGED:g} times: blue darker, red brighter"),
     ]
     heading = f"<h3>{swatch}{html.escape(variant.title)}</h3>"
-    return f'<article>{heading}<div class="three">{"".join(figures)}</div></article>'
+    return f'<article>{heading}<div class="two">{"".join(figures)}</div></article>'
 
 
 def _figure(png: bytes, caption: str) -> str:
     text = f"<figcaption>{html.escape(caption)}</figcaption>" if caption else ""
     alt = html.escape(caption or "reference", quote=True)
-    return f'<figure><img src="{data_uri(png)}" alt="{alt}">{text}</figure>'
+    data = base64.b64encode(png).decode("ascii")
+    return f'<figure><img src="data:image/png;base64,{data}" alt="{alt}">{text}</figure>'
 
 
 def _facts(report: Report) -> str:

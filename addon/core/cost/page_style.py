@@ -34,12 +34,12 @@ i { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin
 .cards { display: grid; gap: 16px; }
 article { background: var(--card); border-radius: 10px; padding: 14px 16px; min-width: 0; }
 .reference img { max-width: 640px; }
-.three { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
+.two { display: grid; grid-template-columns: repeat(2, 1fr); gap: 10px; }
 figure { margin: 0; min-width: 0; }
 img { display: block; width: 100%; height: auto; border-radius: 4px; image-rendering: auto; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 4px 16px; margin: 0; }
 dd { margin: 0; overflow-wrap: anywhere; }
-@media (max-width: 640px) { .three { grid-template-columns: 1fr; } }
+@media (max-width: 640px) { .two { grid-template-columns: 1fr; } }
 """
 
 SCRIPT = """

@@ -18,6 +18,10 @@ COLORS = (
 )  # fmt: skip
 
 
+# The named colours where no page sets them.
+_ALONE = {"ink": "#222", "grid": "#ddd"}
+
+
 @dataclass(frozen=True)
 class Line:
     """Points (x, y) in pixels from the upper left corner; `color` is "#rrggbb" or a name.
@@ -97,9 +101,10 @@ def draw_plot(report: Report) -> list[Line | Dot | Label]:
 
 
 def svg(steps: list[Line | Dot | Label]) -> str:
-    """Return the drawing as an SVG element, its ink and grid in the page's own colours."""
-    box = f'viewBox="0 0 {WIDTH} {HEIGHT}" font-size="12"'
-    parts = [f'<svg {box} role="img" aria-label="Error over time">']
+    """Return the drawing as SVG. A page around it may set the colours of ink and grid."""
+    box = f'viewBox="0 0 {WIDTH} {HEIGHT}" font-size="12" font-family="sans-serif"'
+    name = 'role="img" aria-label="Error over time"'
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {box} {name}>']
     for step in steps:
         if isinstance(step, Line):
             points = " ".join(f"{x:.1f},{y:.1f}" for x, y in step.points)
@@ -122,7 +127,7 @@ def svg(steps: list[Line | Dot | Label]) -> str:
 
 
 def _paint(color: str) -> str:
-    return color if color.startswith("#") else f"var(--{color})"
+    return color if color.startswith("#") else f"var(--{color}, {_ALONE[color]})"
 
 
 def _ticks(low: float, high: float) -> list[float]:

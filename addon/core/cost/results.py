@@ -29,7 +29,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Measured:
-    """A variant with its cost and its errors at `samples` samples; FLIP is the picture's mean."""
+    """A variant with its cost and its errors at `samples` samples."""
 
     key: str
     title: str
@@ -37,7 +37,6 @@ class Measured:
     samples: int
     cost: Cost
     split: ErrorSplit
-    flip: float
 
     @property
     def is_timed(self) -> bool:
@@ -174,6 +173,6 @@ class Report:
             "seconds_to_error": reached if math.isfinite(reached) else None,
             "seconds_to_error_open": variant.split.doubtful(self.setting.error),
             "error_at_equal_time": variant.error_at(self.equal_time) if timed else None,
-            "flip": variant.flip,
+            "flip": None,  # not measured; scripts may read the key
             "memory_mb": variant.cost.memory,
         }

@@ -41,7 +41,6 @@ def headings(report: Report) -> tuple[str, ...]:
         "Time",
         "Processor",
         "Start",
-        "FLIP",
         "Memory",
     )
 
@@ -59,7 +58,6 @@ def cells(report: Report, variant: Measured) -> tuple[str, ...]:
         spent(row["seconds"]),
         spent(row["processor_seconds"]),
         duration(row["start_seconds"]),
-        f"{row['flip']:.3f}",
         "not measured" if memory is None else f"{memory:.{0 if memory >= 10.0 else 1}f} MB",
     )
 
@@ -68,7 +66,7 @@ def sort_keys(report: Report, variant: Measured) -> tuple[object, ...]:
     """Return what the columns of cells() are sorted by; None comes last."""
     row = next(row for row in report.rows() if row["key"] == variant.key)
     names = ("variant", "seconds_to_error", "error_at_equal_time", "bias", "noise", "seconds")
-    more = ("processor_seconds", "start_seconds", "flip", "memory_mb")
+    more = ("processor_seconds", "start_seconds", "memory_mb")
     return tuple(row[name] for name in (*names, *more))
 
 

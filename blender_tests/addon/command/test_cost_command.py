@@ -41,7 +41,7 @@ def test_measured_twice_and_with_a_changed_scene(command, file, tmp_path, regist
     assert f"Report: {tmp_path / 'again' / 'cost.html'}" in out
     again = json.loads((tmp_path / "again" / "cost.json").read_text("utf-8"))
     assert again["setting"]["reference_kept"] is True
-    assert again["variants"][0]["flip"] == pytest.approx(first["variants"][0]["flip"])
+    assert again["variants"][0]["noise"] == pytest.approx(first["variants"][0]["noise"])
 
     registered.data.lights[0].energy = 40.0
     registered.ops.wm.save_mainfile()

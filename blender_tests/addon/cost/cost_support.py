@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from addon.core.cost.page import Pictures
+from addon.core.cost.page import Drawer, Pictures
 from addon.core.cost.results import Cost, Measured, Report, Setting
 from addon.core.cost.statistics import ErrorSplit
 from blender_tests.addon.support import small_scene
@@ -30,7 +30,7 @@ def measured(
     times = (seconds / 16,) * 3
     cost = Cost(times, times, (0.5,) * 3, memory)
     split = ErrorSplit(bias**2, se, noise)
-    return Measured(key, key.title(), family, 16, cost, split, 0.05)
+    return Measured(key, key.title(), family, 16, cost, split)
 
 
 def report(*variants: Measured, error: float = 0.02, **changes: object) -> Report:
@@ -56,17 +56,17 @@ def report(*variants: Measured, error: float = 0.02, **changes: object) -> Repor
     return Report(Setting(**setting), variants, "A sentence.", {"page": "cost.html"})
 
 
-def noisy_pictures(
-    variants: tuple[Measured, ...], width: int = 24, height: int = 16
-) -> tuple[np.ndarray, dict[str, Pictures]]:
-    """Return a reference and what a page shows of each variant, all of it noise."""
+def noisy_pictures(variants: tuple[Measured, ...], widest: int = 24) -> Drawer:
+    """Return what draws a page's pictures: noise instead of PNGs, as long as square ones."""
     random = np.random.default_rng(1)
-    size = (height, width)
-    shown = {
-        v.key: Pictures(random.random((*size, 3)), random.random(size) - 0.5, random.random(size))
-        for v in variants
-    }
-    return random.random((*size, 3)), shown
+
+    def drawer(width: int) -> tuple[bytes, dict[str, Pictures]]:
+        size = 3 * min(width, widest) ** 2
+        return random.bytes(size), {
+            v.key: Pictures(random.bytes(size), random.bytes(size)) for v in variants
+        }
+
+    return drawer
 
 
 def tiny_scene(path: Path | None = None, osl: bool = True) -> bpy.types.Scene:

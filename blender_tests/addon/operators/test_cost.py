@@ -4,11 +4,9 @@
 from types import SimpleNamespace
 
 import bpy
-import numpy as np
 import pytest
 
 from addon.core.cost.plan import Options
-from addon.core.cost.png import rgb_png
 from addon.core.cost.results import TOO_SHORT
 from addon.core.run import Progress
 from addon.cost import run
@@ -37,7 +35,6 @@ def asked(monkeypatch):
         return FakeRun(steps=1, result=REPORT)
 
     monkeypatch.setattr(run, "CostRun", begin)
-    monkeypatch.setattr(run, "load_plot", lambda report: None)
     return found
 
 
@@ -154,7 +151,6 @@ def test_the_panel_shows_the_last_result(asked):
     assert layout.texts[2:6] == ["Variant", "To 2 %", "Bias", "Noise"]
     assert layout.texts[6:10] == ["Exact", "25 s ?", "< 55 %", "10 %"]
     assert layout.texts[10:14] == ["Fitted", "33 s", "1 %", "10 %"]
-    assert "It is the image 'Microbounce Cost'" in layout.texts
     assert "microbounce.show_cost_plot" in [name for name, _ in layout.operators]
     assert [o.filepath for name, o in layout.operators if name == "wm.path_open"] == [
         "cost.html",
@@ -172,45 +168,24 @@ def test_a_time_that_is_none_is_not_shown(asked, monkeypatch):
 @pytest.fixture
 def plotted(asked, monkeypatch, tmp_path):
     """A measurement whose plot is a file; returns the file."""
-    monkeypatch.undo()
-    path = tmp_path / "cost.png"
-    path.write_bytes(rgb_png(np.zeros((2, 3, 3))))
+    path = tmp_path / "cost.svg"
+    path.write_text("<svg/>")
     monkeypatch.setattr(cost, "_last", {"files": {"plot": str(path)}})
     return path
 
 
-def test_the_plot_is_shown_in_an_image_editor(plotted):
-    area = bpy.context.window.screen.areas[0]
-    before = area.ui_type
-    area.ui_type = "IMAGE_EDITOR"
-    try:
-        for _ in range(2):
-            assert bpy.ops.microbounce.show_cost_plot() == {"FINISHED"}
-            assert area.spaces.active.image == bpy.data.images[run.IMAGE]
-            bpy.data.images.remove(bpy.data.images[run.IMAGE])  # as undo may do
-    finally:
-        area.ui_type = before
-
-
-def test_the_plot_where_no_window_opens(plotted):
+def test_the_plot_is_opened(plotted, monkeypatch, tmp_path):
+    opener = tmp_path / "xdg-open"
+    opener.write_text('#!/bin/sh\necho "$1" > "$0.log"\n')
+    opener.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
     assert bpy.ops.microbounce.show_cost_plot() == {"FINISHED"}
-    assert tuple(bpy.data.images[run.IMAGE].size) == (3, 2)
-
-
-def test_an_image_editor_of_this_window_is_taken_first():
-    areas = [SimpleNamespace(ui_type=kind) for kind in ("UV", "IMAGE_EDITOR", "IMAGE_EDITOR")]
-    first, second = (
-        SimpleNamespace(screen=SimpleNamespace(areas=a)) for a in (areas[:2], areas[2:])
-    )
-    for window, wanted in ((first, areas[1]), (second, areas[2])):
-        manager = SimpleNamespace(windows=[first, second])
-        context = SimpleNamespace(window_manager=manager, window=window)
-        assert cost._image_editor(context) is wanted
+    assert (tmp_path / "xdg-open.log").read_text().strip() == str(plotted)
 
 
 def test_there_may_be_no_plot(plotted, monkeypatch):
     plotted.unlink()
-    with pytest.raises(RuntimeError, match=r"cost\.png cannot be read: measure anew"):
+    with pytest.raises(RuntimeError, match=r"cost\.svg is gone: measure again"):
         bpy.ops.microbounce.show_cost_plot()
     monkeypatch.setattr(cost, "_last", None)
     with pytest.raises(RuntimeError, match="There is no plot: press Measure Cost first"):
