@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fixture scenes, the scripts that build them, and the demo."""
+"""Fixture scenes, the scripts that build them, their rendering and timing, and the demos."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the benchmark's scene of two million triangles in memory: it is too large for a file.
+"""Builds the benchmark's scene of two million triangles in memory, because a file is too large.
 
-A sheet of rough metal, displaced into waves upon waves, under a large lamp and a dim sky.
+It shows a wavy sheet of rough metal under a large lamp and a dim sky.
 """
 
 import bpy
@@ -26,7 +26,7 @@ METAL = {"BaseColor": (1.0, 0.766, 0.336), "EdgeTint": (1.0, 0.98, 0.88), "Rough
 
 
 def build(side: int = SIDE) -> bpy.types.Scene:
-    """Put the scene in place of the open file and return it; 2 `side`^2 triangles."""
+    """Replace the open file by the scene, with 2 `side`^2 triangles, and return it."""
     scene = common.start_scene(RESOLUTION, samples=64)
     scene.cycles.max_bounces = 4
     scene.view_layers[0].use_pass_object_index = True
@@ -34,17 +34,13 @@ def build(side: int = SIDE) -> bpy.types.Scene:
     sheet = common.add_object("Sheet", _sheet(side))
     sheet.data.materials.append(new_material("CONDUCTOR", "Gold", **METAL))
     sheet.pass_index = 1
-    lamp = bpy.data.lights.new("Lamp", "AREA")
-    lamp.shape, lamp.size, lamp.energy = "DISK", 2.0, 300.0
-    placed = common.add_object("Lamp", lamp)
-    placed.location = (-2.5, 1.5, 3.0)
-    common.aim(placed, (2.5, -1.5, -3.0))
+    common.add_area_light("Lamp", (-2.5, 1.5, 3.0), (0.0, 0.0, 0.0), (2.0, 2.0), 300.0, "DISK")
     common.add_camera(scene, (0.0, -4.2, 2.4), (0.0, 4.2, -2.5), 42.0)
     return scene
 
 
 def _sheet(side: int) -> bpy.types.Mesh:
-    """The displaced sheet, its triangles smooth."""
+    """The displaced sheet with smooth shading."""
     line = np.linspace(-0.5 * SIZE, 0.5 * SIZE, side + 1)
     x, y = np.meshgrid(line, line)
     z = sum(a * np.sin(kx * x + ky * y + phase) for a, kx, ky, phase in WAVES)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds every .blend file of this folder."""
+"""Builds every .blend file of this folder: `make scenes`."""
 
 from addon.core.kinds import KINDS
 
@@ -8,7 +8,7 @@ from .leave import leave
 
 
 def main() -> None:
-    """Build them one after the other."""
+    """Build the files one after the other."""
     for kind in KINDS:
         fixtures.build_sphere_sun(kind)
         fixtures.build_furnace(kind)

@@ -2,7 +2,7 @@
 """Builds showcase.blend: rough metals in a studio light.
 
 A gold knot (GGX), a brushed steel vase (anisotropic GGX), a copper ball (Beckmann) and a rounded
-titanium cube (n and k). The metals carry an object index, so that the demo can tell them apart.
+titanium cube (n and k). Each has its own object index, by which the demo tells them apart.
 """
 
 import math
@@ -15,8 +15,8 @@ from . import common, shapes
 
 RESOLUTION = (512, 336)
 
-# Values of the group's parameters by identifier; the colours are the metals' usual reflectances
-# at normal incidence in linear Rec. 709.
+# Parameters by identifier. The colours are the metals' usual reflectances at normal incidence, in
+# linear Rec. 709.
 METALS = {
     "Gold": {
         "BaseColor": (1.0, 0.766, 0.336),
@@ -28,7 +28,7 @@ METALS = {
         "EdgeTint": (0.86, 0.87, 0.88),
         "Roughness": 0.7,
         "Anisotropy": 0.9,
-        # The brush went around the vase: the highlight spreads along its height.
+        # The brush goes around the vase, so the highlight spreads along its height.
         "Rotation": 0.25,
     },
     "Copper": {
@@ -72,7 +72,7 @@ def build() -> None:
     scene.cycles.max_bounces = 5
     scene.cycles.diffuse_bounces = 2
     scene.cycles.glossy_bounces = 4
-    # It keeps the metals' hues, which filmic transforms wash out in the lights.
+    # Filmic transforms would wash out the metals' hues in the highlights.
     scene.view_settings.view_transform = "Khronos PBR Neutral"
     scene.view_layers[0].use_pass_object_index = True
     _add_gradient_world(scene)
@@ -110,9 +110,13 @@ def _add_stage() -> None:
 
 
 def _add_lights() -> None:
-    _add_area("Key", (-3.8, -2.6, 4.4), (0.0, 0.2, 0.9), 1.4, 380.0, (1.0, 0.86, 0.7))
-    _add_area("Rim", (2.2, 3.2, 4.4), (0.2, 0.2, 0.9), 2.4, 420.0, (0.62, 0.78, 1.0))
-    _add_area("Fill", (4.8, -3.6, 1.8), (0.2, 0.0, 0.8), 1.6, 90.0, (0.8, 0.88, 1.0))
+    for name, location, target, size, watts, color in (
+        ("Key", (-3.8, -2.6, 4.4), (0.0, 0.2, 0.9), 1.4, 380.0, (1.0, 0.86, 0.7)),
+        ("Rim", (2.2, 3.2, 4.4), (0.2, 0.2, 0.9), 2.4, 420.0, (0.62, 0.78, 1.0)),
+        ("Fill", (4.8, -3.6, 1.8), (0.2, 0.0, 0.8), 1.6, 90.0, (0.8, 0.88, 1.0)),
+    ):
+        light = common.add_area_light(name, location, target, (size, size), watts, "DISK")
+        light.color = color
 
 
 def _add_camera(scene: bpy.types.Scene) -> None:
@@ -128,8 +132,8 @@ def _place(
     name: str,
     data: bpy.types.ID,
     metal: str,
-    location: tuple[float, float, float],
-    rotation: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    location: common.Triple,
+    rotation: common.Triple = (0.0, 0.0, 0.0),
     scale: float = 1.0,
 ) -> bpy.types.Object:
     data.materials.append(new_material("CONDUCTOR", metal, **METALS[metal]))
@@ -147,12 +151,12 @@ def _subdivide(target: bpy.types.Object) -> None:
 
 
 def _arc(radius: float, count: int) -> list[shapes.Point]:
-    """Points (radius, height) of a half circle from pole to pole, without the poles."""
+    """Return the points (radius, height) of a half circle between the poles, without them."""
     angles = [math.pi * (index / count - 0.5) for index in range(1, count)]
     return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
 
 
-def _matte(name: str, color: tuple[float, float, float]) -> bpy.types.Material:
+def _matte(name: str, color: common.Triple) -> bpy.types.Material:
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     tree = material.node_tree
@@ -163,24 +167,6 @@ def _matte(name: str, color: tuple[float, float, float]) -> bpy.types.Material:
     output.location = (250, 0)
     tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
     return material
-
-
-def _add_area(
-    name: str,
-    location: tuple[float, float, float],
-    target: tuple[float, float, float],
-    size: float,
-    watts: float,
-    color: tuple[float, float, float],
-) -> None:
-    light = bpy.data.lights.new(name, "AREA")
-    light.shape = "DISK"
-    light.size = size
-    light.energy = watts
-    light.color = color
-    added = common.add_object(name, light)
-    added.location = location
-    common.aim(added, tuple(t - p for t, p in zip(target, location, strict=True)))
 
 
 def _add_gradient_world(scene: bpy.types.Scene) -> None:

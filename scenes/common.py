@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the scripts that build the scenes share: an empty file, settings, the unit sphere."""
+"""Shared by the scripts that build scenes: an empty file, settings, the unit sphere."""
 
 import math
 from itertools import pairwise
@@ -9,12 +9,13 @@ import bpy
 from mathutils import Vector
 
 FOLDER = Path(__file__).resolve().parent
+Triple = tuple[float, float, float]
 
-# The sphere's facets span 0.7 degrees: interpolated normals are then within 1e-4 rad of the
-# analytic sphere's, far below what an alpha of 0.01 resolves.
+# The sphere's facets span 0.7 degrees. Interpolated normals are then within 1e-4 rad of the
+# analytic sphere's, far less than an alpha of 0.01 shows.
 SPHERE_SEGMENTS = 512
 SPHERE_RINGS = 256
-# Names of its node tree, and of the node in it that turns its faces.
+# Names of its node tree, and of the node that flips its faces.
 SPHERE = "Unit Sphere"
 INSIDE_OUT = "Inside Out"
 
@@ -22,7 +23,7 @@ INSIDE_OUT = "Inside Out"
 def start_scene(resolution: tuple[int, int], samples: int) -> bpy.types.Scene:
     """Empty the file and return its scene, set to Cycles with OSL on the CPU.
 
-    Nothing that biases pixels is on: no clamping, denoiser, adaptive sampling or light threshold.
+    Settings that bias pixels are off: clamping, denoiser, adaptive sampling, light threshold.
     """
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -48,13 +49,13 @@ def start_scene(resolution: tuple[int, int], samples: int) -> bpy.types.Scene:
 
 
 def use_box_filter(scene: bpy.types.Scene) -> None:
-    """Make each pixel the plain mean over its own square."""
+    """Make each pixel the plain mean over its square."""
     scene.cycles.pixel_filter_type = "BOX"
     scene.cycles.filter_width = 1.0
 
 
-def set_world(scene: bpy.types.Scene, radiance: tuple[float, float, float]) -> None:
-    """Surround the scene with a uniform radiance, found by the paths that leave the scene alone."""
+def set_world(scene: bpy.types.Scene, radiance: Triple) -> None:
+    """Surround the scene with a uniform radiance. Only paths that leave the scene find it."""
     world = scene.world
     if bpy.app.version < (5, 0, 0):  # later it is always on, and setting it is deprecated
         world.use_nodes = True
@@ -75,8 +76,8 @@ def add_object(name: str, data: bpy.types.ID | None) -> bpy.types.Object:
     return added
 
 
-def aim(target: bpy.types.Object, direction: tuple[float, float, float]) -> None:
-    """Turn a camera or light so that it looks along `direction` (any length), up being +Z."""
+def aim(target: bpy.types.Object, direction: Triple) -> None:
+    """Turn a camera or light to look along `direction` (any length), with +Z up."""
     target.rotation_euler = Vector(direction).to_track_quat("-Z", "Y").to_euler()
 
 
@@ -94,10 +95,7 @@ def add_front_camera(scene: bpy.types.Scene) -> bpy.types.Object:
 
 
 def add_camera(
-    scene: bpy.types.Scene,
-    location: tuple[float, float, float],
-    direction: tuple[float, float, float],
-    angle: float,
+    scene: bpy.types.Scene, location: Triple, direction: Triple, angle: float
 ) -> bpy.types.Object:
     """Add a perspective camera whose picture spans `angle` degrees along its longer side."""
     data = bpy.data.cameras.new("Camera")
@@ -109,8 +107,26 @@ def add_camera(
     return camera
 
 
+def add_area_light(
+    name: str,
+    location: Triple,
+    target: Triple,
+    size: tuple[float, float],
+    watts: float,
+    shape: str = "RECTANGLE",
+) -> bpy.types.AreaLight:
+    """Add an area light that shines at the point `target`; return its data."""
+    light = bpy.data.lights.new(name, "AREA")
+    light.shape, light.energy = shape, watts
+    light.size, light.size_y = size
+    added = add_object(name, light)
+    added.location = location
+    aim(added, tuple(t - p for t, p in zip(target, location, strict=True)))
+    return light
+
+
 def show_to_camera_only(target: bpy.types.Object) -> None:
-    """Let every ray but the camera's pass through, those of shadows included."""
+    """Let all rays but the camera's pass through, even shadow rays."""
     for ray in ("diffuse", "glossy", "transmission", "volume_scatter", "shadow"):
         setattr(target, f"visible_{ray}", False)
 
@@ -118,7 +134,7 @@ def show_to_camera_only(target: bpy.types.Object) -> None:
 def add_unit_sphere(material: bpy.types.Material) -> bpy.types.Object:
     """Add a smooth unit sphere at the origin, its poles on Z.
 
-    Geometry nodes make it, so that a sphere this fine takes no room in the file.
+    Geometry nodes make it, so such a fine sphere takes no room in the file.
     """
     tree = bpy.data.node_groups.new(SPHERE, "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
@@ -152,7 +168,7 @@ def save(name: str) -> Path:
     for screen in bpy.data.screens:
         for space in (space for area in screen.areas for space in area.spaces):
             if space.type == "FILE_BROWSER" and space.params:
-                space.params.directory = b"//"  # it starts as the user's home
+                space.params.directory = b"//"  # initially the user's home
     bpy.context.preferences.filepaths.save_version = 0
     bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True, relative_remap=True)
     print(f"{path.name}: {path.stat().st_size / 1024:.0f} KB")

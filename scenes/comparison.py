@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lays pictures side by side with a title and figures under each.
 
-The letters are drawn by Blender with the font that it ships, so that no font of the system and no
-display is needed.
+Blender draws the letters with its own font, so no display and no system font is needed.
 """
 
 from pathlib import Path
@@ -32,7 +31,8 @@ def side_by_side(
 ) -> np.ndarray:
     """Return one picture, float32 (height, width, 3), display-referred like `pictures`.
 
-    pictures -- of one shape (height, width, 3); `titles` and `captions` (lines) are one a picture
+    pictures -- all of one shape (height, width, 3)
+    titles, captions -- one for each picture; a caption is a list of lines
     """
     height, width = pictures[0].shape[:2]
     lines = max(len(caption) for caption in captions)
@@ -69,7 +69,7 @@ def write_jpeg(path: Path, picture: np.ndarray, quality: int = 88) -> None:
 
 
 def _with_texts(canvas: np.ndarray, texts: list[tuple]) -> np.ndarray:
-    """Blend texts, each (left, baseline from the top, size, colour, line), over a canvas."""
+    """Return the canvas with texts, each (left, baseline from the top, size, colour, line)."""
     height, width = canvas.shape[:2]
     buffer = imbuf.new((width, height))
     font = blf.load(str(Path(bpy.utils.system_resource("DATAFILES"), "fonts", "Inter.woff2")))
@@ -85,5 +85,5 @@ def _with_texts(canvas: np.ndarray, texts: list[tuple]) -> np.ndarray:
         path = str(Path(folder, "text.png"))
         imbuf.write(buffer, filepath=path)
         drawn = oiio.ImageBuf(path).get_pixels(oiio.FLOAT)
-    # OpenImageIO multiplies a PNG's colours by its alpha as it reads them.
+    # OpenImageIO multiplies a PNG's colours by alpha when it reads them.
     return drawn[..., :3] + canvas * (1.0 - drawn[..., 3:4])

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The main job: renders the showcase with one bounce, with Cycles' own energy compensation and with
-Microbounce, Fitted and Walk; writes pictures into build/demo and prints what they cost and keep.
+"""Renders the showcase with Single, Cycles' energy compensation, Fitted and Walk to compare them.
 
-Each variant is rendered in a few interleaved passes with seeds of their own. Their mean is the
-picture; their spread gives its noise; their times, less that of a one-sample warm-up, give the
-seconds per sample. The denoiser and adaptive sampling are off.
+Writes pictures into build/demo and prints times and energies. Each variant is rendered in a few
+interleaved passes, each with its own seed. Their mean is the picture. Their spread gives its noise.
+Their times without a one-sample warm-up give the seconds per sample. The denoiser and adaptive
+sampling are off.
 """
 
 import argparse
@@ -29,7 +29,7 @@ SAMPLES = 96
 
 @dataclass
 class Variant:
-    """One way to render the metals, and what was measured of it."""
+    """One way to render the metals, with its measurements."""
 
     key: str
     title: str
@@ -49,7 +49,7 @@ class Variant:
         return float(np.sqrt(np.mean(spread**2)) / np.mean(self.radiance[mask]))
 
     def per_sample(self, samples: int) -> float:
-        """Return the median seconds per sample, `samples` being those of one pass."""
+        """Return the median seconds per sample if a pass has `samples`, 2 or more."""
         times = [(seconds - self.warm_up) / (samples - 1) for seconds in self.seconds]
         return statistics.median(times)
 
@@ -62,7 +62,7 @@ class Variant:
 
 
 def compared_variants() -> list[Variant]:
-    """Return what is compared, the single bounce first."""
+    """Return the compared variants, the single bounce first."""
     return [
         Variant("single", "Single bounce", "Single"),
         Variant("cycles_multiscatter", "Cycles Multiscatter", "CYCLES"),
@@ -74,11 +74,11 @@ def compared_variants() -> list[Variant]:
 def render_variants(
     compared: list[Variant], metals: list[variants.Material], folder: Path, samples: int
 ) -> np.ndarray:
-    """Render all passes; fill in `compared` and return the object index of each pixel."""
+    """Render all passes into `compared`; return the object index of each pixel, (rows, columns)."""
     log = folder / "blender.log"
     work = folder / "pass.exr"
     per_pass = max(2, samples // PASSES)
-    # Builds the scene and starts the threads, so that no variant pays for it.
+    # Builds the scene and starts the threads, so no variant pays for it.
     compared[0].apply(metals)
     render.render_passes(work, 1, 0, log)
     steps = tqdm(total=(PASSES + 1) * len(compared), desc="Rendering", unit="pass")
@@ -103,7 +103,7 @@ def render_variants(
 
 
 def energies(variant: Variant, index: np.ndarray, metals: list[variants.Material]) -> list[float]:
-    """Return the mean radiance over all metals, then over each of them."""
+    """Return the mean radiance over all metals, then over each."""
     radiance = variant.radiance
     masks = [index > 0, *(index == metal.index for metal in metals)]
     return [float(radiance[mask].mean()) for mask in masks]
@@ -165,11 +165,11 @@ def print_report(
             f"{1000 * variant.per_sample(per_pass):15.1f}{time_ratio:15.2f}"
             f"{100 * variant.noise(index > 0):14.2f}%"
         )
-    print("Cycles has no Beckmann with further bounces: its copper is a single bounce.")
+    print("Cycles has no Beckmann with further bounces, so its copper has a single bounce.")
 
 
 def main() -> None:
-    """Parse the arguments and do the job."""
+    """Render, compare and print."""
     parser = argparse.ArgumentParser(prog="python -m scenes.demo", description=__doc__)
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "demo", metavar="FOLDER")
     parser.add_argument("--samples", type=int, default=SAMPLES, help="a pixel (%(default)s)")

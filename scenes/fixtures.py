@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fixtures: scenes in which each pixel is one number that the oracle computes as well.
+"""Builds the fixtures: scenes in which each pixel is a number that the oracle computes too.
 
-Their objects are seen by camera rays alone, so that light meets the surface once: what is reflected
-or refracted goes on to the light or the world, whichever way it leaves, and a pixel shows one facet
-of the macrosurface and nothing else. Materials lose no light; tests set other values.
+Only camera rays see their objects, so light meets the surface once. Reflected or refracted light
+always goes on to the sun or the world. A pixel shows one facet of the macrosurface. The materials
+lose no light; tests set other values.
 
     sphere_sun_*   a unit sphere under a sun of irradiance 1 in a black world: BSDF times cosine.
                    The camera is common.add_front_camera(). `aim_sun(BACK_SUN)` lights it from
-                   behind, through every facet that faces the camera.
+                   behind, through all facets that face the camera.
     furnace_*      the same sphere in a uniform world of radiance 1: directional albedo.
                    `turn_inside_out()` shows the surface from inside the solid.
-    slab_*         one rough side of a slab, the plane z = 0 with its normal up, under a sun that
-                   shines up through it; the perspective camera looks down on it at angles of
-                   31 to 81 degrees from the normal along the picture's middle column.
+    slab_*         one rough side of a slab: the plane z = 0 with its normal up. A sun shines up
+                   through it. A perspective camera looks down on it, along the picture's middle
+                   column at angles of 31 to 81 degrees from the normal.
 """
 
 import bpy
@@ -24,16 +24,16 @@ from . import common
 
 RESOLUTION = 64
 
-# Towards the sun, before they are normalised.
+# Directions to the sun, not normalised.
 FRONT_SUN = (0.6, -0.72, 0.35)
 BACK_SUN = (0.45, 0.85, 0.25)
 SLAB_SUN = (0.1, 0.55, -0.83)
 
-# The slab's camera: place, direction and the angle that the square picture spans, in degrees.
+# The slab's camera: place, direction, and the angle of view in degrees.
 SLAB_CAMERA = (0.0, -3.0, 2.0)
 SLAB_VIEW = (0.0, 3.0, -2.0)
 SLAB_ANGLE = 50.0
-# Half the slab's width: it fills the picture.
+# Half the slab's width, which fills the picture.
 SLAB_SIZE = 40.0
 
 _WHITE = (1.0, 1.0, 1.0)
@@ -45,7 +45,7 @@ _LOSSLESS = {
 
 
 def build_sphere_sun(kind: str) -> None:
-    """Build and save the sphere under the sun of this kind of material."""
+    """Build and save the sphere of this kind of material under the sun."""
     scene = _start(samples=256, bounces=0)
     common.add_front_camera(scene)
     common.show_to_camera_only(common.add_unit_sphere(_lossless(kind)))
@@ -54,7 +54,7 @@ def build_sphere_sun(kind: str) -> None:
 
 
 def build_furnace(kind: str) -> None:
-    """Build and save the sphere in the uniform world."""
+    """Build and save the sphere of this kind of material in the uniform world."""
     scene = _start(samples=64, bounces=1)
     common.set_world(scene, _WHITE)
     common.add_front_camera(scene)
@@ -63,7 +63,7 @@ def build_furnace(kind: str) -> None:
 
 
 def build_slab(kind: str) -> None:
-    """Build and save the slab under the sun."""
+    """Build and save the slab of this kind of material under the sun."""
     scene = _start(samples=256, bounces=0)
     mesh = bpy.data.meshes.new("Slab")
     corners = [(SLAB_SIZE * x, SLAB_SIZE * y, 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
@@ -75,7 +75,7 @@ def build_slab(kind: str) -> None:
     common.save(f"slab_{kind.lower()}")
 
 
-def add_sun(towards: tuple[float, float, float]) -> None:
+def add_sun(towards: common.Triple) -> None:
     """Add a sun without size whose irradiance on a surface that faces it is 1."""
     light = bpy.data.lights.new("Sun", "SUN")
     light.energy = 1.0
@@ -84,7 +84,7 @@ def add_sun(towards: tuple[float, float, float]) -> None:
     aim_sun(towards)
 
 
-def aim_sun(towards: tuple[float, float, float]) -> None:
+def aim_sun(towards: common.Triple) -> None:
     """Move the open fixture's sun: `towards` is the direction to it, of any length."""
     common.aim(bpy.data.objects["Sun"], tuple(-component for component in towards))
 

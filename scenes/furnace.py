@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures how much light lossless surfaces return in the scene furnace_conductor.blend."""
+"""Measures how much light lossless surfaces return, in furnace_conductor.blend."""
 
 from pathlib import Path
 from typing import Protocol
@@ -17,7 +17,7 @@ SURFACE = ("Roughness", "Anisotropy", "Rotation", "Distribution", "MaxBounces", 
 
 
 class Switch(Protocol):
-    """What switches an open scene to one of the compared variants."""
+    """Switches the materials of an open scene to one of the compared variants."""
 
     key: str
 
@@ -26,10 +26,10 @@ class Switch(Protocol):
 
 
 def energies(metals: list[variants.Material], compared: list[Switch], log: Path) -> dict:
-    """Return by each variant's key the mean radiance of a white sphere of every metal's surface.
+    """Return, by variant key, the mean radiance of a white sphere with each metal's surface.
 
-    Opens the furnace in place of the current file; `metals` are invalid afterwards. The mean is
-    that over the sphere's picture, so that all angles of view count by their projected area.
+    The mean is over the sphere's picture, so angles of view count by their projected area. Opens
+    the furnace in place of the current file. `metals` are invalid afterwards.
     """
     surfaces = [{name: metal.get(name) for name in SURFACE} for metal in metals]
     with render.messages_to(log):
@@ -54,7 +54,7 @@ def energies(metals: list[variants.Material], compared: list[Switch], log: Path)
 
 
 def _inside(scene: bpy.types.Scene) -> np.ndarray:
-    """Return the pixels (SIZE, SIZE) that lie wholly on the unit sphere."""
+    """Return the mask (SIZE, SIZE) of pixels that lie wholly on the unit sphere."""
     width = scene.camera.data.ortho_scale
     edges = np.abs((np.arange(SIZE) + 0.5) / SIZE - 0.5) * width + 0.5 * width / SIZE
     return edges[:, None] ** 2 + edges[None, :] ** 2 < 1.0

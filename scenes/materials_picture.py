@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders the README's picture: a metal, a glass and a clay, each with one bounce, with the best
-that Cycles has, and with Microbounce.
+"""Renders the README's picture: a metal, a glass and a clay, each in three variants.
 
-The stage and its lights are the showcase's. Light paths have Blender's default limits. The denoiser
-and adaptive sampling are off.
+They are one bounce, the best of Cycles, and Microbounce. The stage and its lights are the
+showcase's. Light paths have Blender's default limits. The denoiser and adaptive sampling are off.
 """
 
 import argparse
@@ -32,7 +31,7 @@ VARIANTS = (
     demo.Variant("fitted", "Microbounce", "Fitted"),
 )
 
-# Blender's defaults of a new file.
+# Blender's defaults for a new file.
 DEFAULTS = {
     "max_bounces": 12,
     "diffuse_bounces": 4,
@@ -88,8 +87,13 @@ def _knot() -> bpy.types.Object:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the picture: a material with its inputs by identifier, what adds its object to the
-    scene, samples a pixel, and the line under the row."""
+    """A row of the picture.
+
+    kind, values -- of the material; the values by identifier
+    add_shape -- adds the row's object to the scene and returns it
+    samples   -- per pixel
+    about     -- the line under the row
+    """
 
     kind: str
     values: dict[str, object]
@@ -125,7 +129,7 @@ ROWS = (
 
 
 def open_stage() -> None:
-    """Open the showcase and leave its stage and lights, with the camera on the plinth."""
+    """Open the showcase without its metals, with the camera on the plinth."""
     bpy.ops.wm.open_mainfile(filepath=str(demo.SCENE))
     scene = bpy.context.scene
     for thing in [thing for thing in scene.objects if thing.pass_index]:
@@ -142,7 +146,7 @@ def open_stage() -> None:
 
 
 def render_row(row: Row, folder: Path, steps: tqdm) -> list[np.ndarray]:
-    """Return the pictures of a row's variants, display-referred, float32 (height, width, 3)."""
+    """Return a picture for each variant, display-referred, float32 (height, width, 3)."""
     shape = row.add_shape()
     shape.data.materials.append(new_material(row.kind, "Shown", **row.values))
     shown = variants.find_materials()
@@ -160,7 +164,7 @@ def render_row(row: Row, folder: Path, steps: tqdm) -> list[np.ndarray]:
 
 
 def main() -> None:
-    """Parse the arguments and write the picture."""
+    """Render the rows and write the picture."""
     parser = argparse.ArgumentParser(prog="python -m scenes.materials_picture", description=__doc__)
     parser.add_argument("--output", type=Path, default=PICTURE, metavar="FILE")
     arguments = parser.parse_args()

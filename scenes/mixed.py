@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Twenty spheres of as many materials, from polished to rough, built from code at run time.
+"""Builds twenty spheres of as many materials, from polished to rough, in memory.
 
-All lights can be hit by a path, so that Exact renders the truth.
+Paths can hit all lights, so Exact renders the truth.
 """
 
 import math
@@ -15,13 +15,13 @@ from . import common, fixtures
 
 _WORLD = (0.5, 0.5, 0.5)
 _SUN = (0.4, -0.7, 0.6)  # towards it
-_SUN_ANGLE = 1.2  # radians: wide, so that Exact finds it often and its picture has little noise
+_SUN_ANGLE = 1.2  # radians: a wide sun, which Exact hits often, so with little noise
 _TEXTURE = 32  # pixels on a side
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """A material: its inputs by identifier, and the ends of a roughness that a texture gives."""
+    """A material: its inputs by identifier, and the range of a textured roughness."""
 
     name: str
     kind: str
@@ -30,7 +30,7 @@ class Recipe:
     textured: tuple[float, float] | None = None
 
 
-def _metal(name: str, alpha: float, base: tuple[float, float, float], **values: object) -> Recipe:
+def _metal(name: str, alpha: float, base: common.Triple, **values: object) -> Recipe:
     return Recipe(name, "CONDUCTOR", alpha, {"BaseColor": base, **values})
 
 
@@ -38,11 +38,11 @@ def _glass(name: str, alpha: float, **values: object) -> Recipe:
     return Recipe(name, "DIELECTRIC", alpha, values)
 
 
-def _matte(name: str, alpha: float, color: tuple[float, float, float], **values: object) -> Recipe:
+def _matte(name: str, alpha: float, color: common.Triple, **values: object) -> Recipe:
     return Recipe(name, "DIFFUSE", alpha, {"Color": color, **values})
 
 
-# Ordered so that the first six are of all kinds, smooth and rough.
+# The first six are of all kinds, smooth and rough.
 RECIPES = (
     _metal("Silver Mirror", 0.01, (0.97, 0.96, 0.92)),
     _metal("Rough Aluminium", 0.75, (0.91, 0.92, 0.92)),
@@ -75,7 +75,7 @@ RECIPES = (
 
 
 def build(count: int = len(RECIPES), resolution: tuple[int, int] = (250, 200)) -> bpy.types.Scene:
-    """Empty the file and return its scene of the first `count` materials, all of them Fitted."""
+    """Empty the file and return a scene of the first `count` materials, all Fitted."""
     scene = common.start_scene(resolution, samples=64)
     common.use_box_filter(scene)
     common.set_world(scene, _WORLD)
@@ -121,7 +121,7 @@ def _material(recipe: Recipe) -> bpy.types.Material:
 
 
 def _link_texture(material: bpy.types.Material, recipe: Recipe) -> None:
-    """Let an image of a slope from 0 to 1 and a Map Range give the roughness."""
+    """Link the roughness to an image that rises from 0 to 1, through a Map Range."""
     image = bpy.data.images.new(recipe.name, _TEXTURE, _TEXTURE, float_buffer=True, is_data=True)
     line = [i / (_TEXTURE - 1) for i in range(_TEXTURE)]
     image.pixels = [part for _ in range(_TEXTURE) for x in line for part in (x, x, x, 1.0)]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows what the analysis saves: renders a scene of mixed materials all in Walk, all in Fitted and
-as analysed; prints time and measured error beside what was predicted, and writes a picture.
+"""Shows what the analysis saves, on mixed materials all in Walk, all in Fitted and as analysed.
 
-The error is that of the converged pictures against Exact, which has no bias: of two independent
-renders of each, so that their noise cancels in the mean. It is taken of blocks of a few pixels,
-which have less noise; a sphere is several blocks wide.
+Prints time and error, measured and predicted, and writes a picture. The error is that of the
+converged pictures against Exact, which has no bias. Each is rendered twice, independently, so noise
+cancels in the mean. The error is taken of blocks of a few pixels, which have less noise. A sphere
+is several blocks wide.
 """
 
 import argparse
@@ -38,13 +38,13 @@ VARIANTS = ("Walk", "Fitted", ANALYSED)
 _ALL_BOUNCES = 16
 FOOTER = "A scene of mixed materials; errors are those of the converged pictures, as image L2"
 _BLOCK = 5  # pixels on a side
-# A render's camera is moved aside by this from one seed to the next, less than a thousandth of a
-# pixel: Cycles places some samples of two seeds alike.
+# The camera moves aside by this from one seed to the next, less than a thousandth of a pixel,
+# because Cycles places some samples of two seeds alike.
 _NUDGE = 1e-5
 
 
 class AnalysedScene:
-    """The open scene's materials, which can be switched to a quality or to what was analysed."""
+    """The open scene's materials, which can switch to a quality or to the proposals."""
 
     def __init__(self, tolerance: float) -> None:
         self.report: Report = analyse(bpy.context, tolerance)
@@ -52,25 +52,25 @@ class AnalysedScene:
         self._proposals = {row.key: row.proposal for row in self.report.rows}
 
     def choices(self, variant: str) -> list[Choice]:
-        """Return what a variant sets on each of `found`: a quality of all, or ANALYSED."""
+        """Return the choice of a variant for each of `found`."""
         if variant == ANALYSED:
             return [self._proposals[one.key].then for one in self.found]
         return [Choice(variant, _ALL_BOUNCES)] * len(self.found)
 
     def switch(self, variant: str) -> None:
-        """Set the variant."""
+        """Apply a variant to the materials."""
         for one, choice in zip(self.found, self.choices(variant), strict=True):
             apply_choice(one, choice)
 
     def predicted(self, variant: str) -> float:
-        """Return the error that the analysis predicts for a variant."""
+        """Return the predicted error of a variant."""
         return picture_error(
             (share, predicted_error(surface, choice))
             for surface, share, choice in self._predictions(variant)
         )
 
     def predicted_time(self, variant: str) -> float:
-        """Return the time of a sample that it predicts, in the units of predicted_cost()."""
+        """Return the predicted time of a sample, in the units of predicted_cost()."""
         costs = [
             (share, predicted_cost(surface, choice))
             for surface, share, choice in self._predictions(variant)
@@ -100,8 +100,10 @@ class AnalysedScene:
 
 
 def difference(found: np.ndarray, wanted: np.ndarray) -> tuple[float, float]:
-    """Return the error of what two pairs of pictures ``(2, rows, columns, 3)`` converge to, as
-    image L2 over the second one's, and its standard error."""
+    """Return the image L2 error of a converged picture over `wanted`'s, and its standard error.
+
+    found, wanted -- two independent renders each, ``(2, rows, columns, 3)``
+    """
     found, wanted = _blocks(found), _blocks(wanted)
     product = ((found[0] - wanted[0]) * (found[1] - wanted[1])).mean(axis=-1).ravel()
     power = float((wanted[0] * wanted[1]).mean())
@@ -121,7 +123,7 @@ def _blocks(pictures: np.ndarray) -> np.ndarray:
 def print_result(
     scene: AnalysedScene, errors: dict[str, tuple[float, float]], times: SampleTimes
 ) -> None:
-    """Print the materials, then the table of times and errors and what it shows."""
+    """Print the materials, the table of times and errors, and a summary."""
     print(f"\n{'':18}{'share':>8}  {'proposed':18}{'off by':>8}  reason")
     for row in scene.report.rows:
         one = row.proposal
@@ -152,7 +154,7 @@ def print_result(
 def write_picture(
     path: Path, pairs: dict[str, np.ndarray], errors: dict[str, tuple[float, float]]
 ) -> None:
-    """Write all variants side by side as PNG, Exact first."""
+    """Write all variants side by side as a PNG, Exact first."""
     shown = [np.clip(pair.mean(axis=0), 0.0, 1.0) ** (1.0 / 2.2) for pair in pairs.values()]
     captions = [
         [f"off by {100 * errors[name][0]:.2f} ± {100 * errors[name][1]:.2f} %"]
@@ -166,7 +168,7 @@ def write_picture(
 
 
 def main() -> None:
-    """Parse the arguments, measure and print."""
+    """Measure and print."""
     parser = argparse.ArgumentParser(prog="python -m scenes.mixed_demo", description=__doc__)
     parser.add_argument("--tolerance", type=float, default=DEFAULT_TOLERANCE)
     parser.add_argument("--samples", type=int, default=96, help="a pixel (%(default)s)")
@@ -180,7 +182,7 @@ def main() -> None:
 
     mixed.build()
     AnalysedScene(arguments.tolerance).switch("Walk")
-    scene = AnalysedScene(arguments.tolerance)  # of materials that are all in Walk
+    scene = AnalysedScene(arguments.tolerance)  # all materials are in Walk now
     tell("rendering the reference, Exact")
     pairs = {"Exact": scene.pictures("Exact", 4 * arguments.samples, first_seed=100)}
     errors = {}

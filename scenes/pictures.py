@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders of the fixture scenes with given parameters, and their comparison with references."""
+"""Renders fixture scenes with given parameters, and compares them with references."""
 
 import tempfile
 from dataclasses import dataclass
@@ -21,14 +21,14 @@ NUDGE = 1e-5
 
 @dataclass(frozen=True)
 class Widths:
-    """A pair of alphas, and the inputs that give them."""
+    """A pair of alphas, with the inputs that give them."""
 
     alpha_x: float
     alpha_y: float
 
     @property
     def name(self) -> str:
-        """As the references' files have it."""
+        """The part of a reference's file name."""
         if self.alpha_x == self.alpha_y:
             return f"{self.alpha_x:g}"
         return f"{self.alpha_x:g}_{self.alpha_y:g}"
@@ -50,7 +50,7 @@ def open_scene(name: str) -> variants.Material:
 
 
 def picture(samples: int, seed: int = 0) -> np.ndarray:
-    """Render the open scene; linear radiance (rows, columns, 3) in float64, top row first."""
+    """Render the open scene; return linear radiance, float64 (rows, columns, 3), top row first."""
     with tempfile.TemporaryDirectory() as folder:
         passes, _ = render.render_passes(
             Path(folder, "picture.exr"), samples, seed, Path(folder, "log")
@@ -59,19 +59,18 @@ def picture(samples: int, seed: int = 0) -> np.ndarray:
 
 
 def independent_pictures(samples: int, count: int) -> np.ndarray:
-    """Renders of the open scene by seeds 0, 1, ..., (count, rows, columns, 3).
+    """Renders of the open scene with seeds 0, 1, ..., (count, rows, columns, 3).
 
-    Cycles' sampler puts some samples of two seeds at the same place in a pixel, and there the
-    shader draws the same numbers (5 to 10 % of the variance was common to both). So the camera is
-    moved aside by NUDGE from one to the next, less than a thousandth of a pixel.
+    Cycles puts some samples of two seeds at the same place in a pixel, where the shader draws the
+    same numbers. The two then share 5 to 10 % of the variance. So the camera moves aside by NUDGE
+    from one render to the next, less than a thousandth of a pixel.
     """
     scene = bpy.context.scene
     camera = scene.camera
     start = camera.location.x
     pictures = []
     for seed in range(count):
-        # Cycles keeps its compiled shaders until the last one; what changes after it would not
-        # reach a scene that was kept.
+        # Keeps compiled shaders until the last render. Later changes would not reach a kept scene.
         scene.render.use_persistent_data = seed < count - 1
         camera.location.x = start + seed * NUDGE
         pictures.append(picture(samples, seed))
@@ -80,14 +79,16 @@ def independent_pictures(samples: int, count: int) -> np.ndarray:
 
 
 def relative_noise(samples: int, count: int, mask: np.ndarray) -> float:
-    """Standard deviation of a pixel of the open scene at `samples`, from `count` renders: its root
-    mean square over `mask` relative to the mean radiance there."""
+    """Root mean square noise of a pixel in `mask` over the mean radiance there.
+
+    It is that of the open scene at `samples`, from `count` renders.
+    """
     found = independent_pictures(samples, count).mean(axis=-1)[:, mask]
     return float(np.sqrt(found.var(axis=0, ddof=1).mean()) / found.mean())
 
 
 def render_fixture(name: str, samples: int, seed: int = 0, **values: object) -> np.ndarray:
-    """Open a fixture scene, set parameters of its material by identifier, and render it."""
+    """Render a fixture scene with parameters of its material set by identifier."""
     set_values(open_scene(name), values)
     return picture(samples, seed)
 
@@ -99,8 +100,10 @@ def set_values(material: variants.Material, values: dict[str, object]) -> None:
 
 
 def open_lit(light: str, kind: str) -> variants.Material:
-    """Open the fixture of this kind of material under the light of the references of that name:
-    "sun", "back" (a sun from behind), "inside" (the same, inside the solid) or "slab"."""
+    """Open the fixture of this kind under a light of the references; return its material.
+
+    light -- "sun", "back" (a sun from behind), "inside" (the same, seen inside the solid) or "slab"
+    """
     material = open_scene(f"{'slab' if light == 'slab' else 'sphere_sun'}_{kind.lower()}")
     if light in ("back", "inside"):
         fixtures.aim_sun(fixtures.BACK_SUN)
@@ -110,7 +113,7 @@ def open_lit(light: str, kind: str) -> variants.Material:
 
 
 def open_solid_sphere(roughness: float) -> variants.Material:
-    """Open the furnace of glass, and let light go on inside the sphere; return its material."""
+    """Open the glass furnace, let light travel on inside the sphere; return its material."""
     glass = open_scene("furnace_dielectric")
     glass.set("Roughness", roughness)
     scene = bpy.context.scene
@@ -121,7 +124,7 @@ def open_solid_sphere(roughness: float) -> variants.Material:
 
 
 def reference(name: str) -> dict[str, np.ndarray]:
-    """Layers of the oracle's picture; `mask` is boolean. Raises OSError if it is missing."""
+    """Layers of the oracle's picture by name, `mask` as bool. Raises OSError if it is missing."""
     layers, _ = exr.read(REFERENCES / f"{name}.exr")
     return layers | {"mask": layers["mask"] > 0.5}
 
@@ -135,12 +138,11 @@ def l2_error(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
 def unbiased_l2_error(
     a: np.ndarray, b: np.ndarray, wanted: np.ndarray, mask: np.ndarray
 ) -> tuple[float, float]:
-    """`l2_error` of what a picture converges to, from two independent renders `a` and `b` of it,
-    and that estimate's standard error.
+    """`l2_error` of a converged picture, and its standard error, from independent renders `a`, `b`.
 
-    The sum of (a - wanted) (b - wanted) has the mean of the squared bias alone, since the noise of
-    one render does not know the other's. What is left of noise has no sign; where it outweighs the
-    bias the error is 0. Channels of a grey picture are one.
+    The mean of (a - wanted) (b - wanted) is the squared bias, because the noise of the two renders
+    is independent. If noise outweighs the bias, the sum may be negative and the error is 0. The
+    channels of a pixel count as one sample.
     """
     product = ((a - wanted) * (b - wanted))[mask].mean(axis=-1)
     power = np.mean(wanted[mask] ** 2)
@@ -151,24 +153,24 @@ def unbiased_l2_error(
 
 
 def energy_ratio(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
-    """Mean over the mask, relative to the reference's."""
+    """Mean of `found` over the mask, relative to the mean of `wanted`."""
     return float(found[mask].mean() / wanted[mask].mean())
 
 
 def block_means(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """Means (blocks, 3) over squares of BLOCK pixels that lie wholly within the mask."""
+    """Means (blocks, 3) over squares of BLOCK x BLOCK pixels that lie wholly in the mask."""
     rows, columns = mask.shape
     shape = (rows // BLOCK, BLOCK, columns // BLOCK, BLOCK, 3)
     return image.reshape(shape).mean(axis=(1, 3))[_blocks(mask)]
 
 
 def rim_mean(image: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """Mean (3,) over the pixels of the mask that lie in none of `block_means`' squares."""
+    """Mean (3,) over the pixels of the mask outside the squares of block_means()."""
     return image[mask & ~np.kron(_blocks(mask), np.ones((BLOCK, BLOCK), dtype=bool))].mean(axis=0)
 
 
 def _blocks(mask: np.ndarray) -> np.ndarray:
-    """Which squares of BLOCK pixels lie wholly within the mask."""
+    """Whether each square of BLOCK x BLOCK pixels lies wholly in the mask."""
     rows, columns = mask.shape
     return mask.reshape(rows // BLOCK, BLOCK, columns // BLOCK, BLOCK).all(axis=(1, 3))
 
@@ -183,6 +185,6 @@ def seeds(name: str, samples: int, count: int, **values: object) -> tuple[np.nda
 def block_z(
     found: np.ndarray, variance: np.ndarray, wanted: np.ndarray, error: np.ndarray, mask: np.ndarray
 ) -> np.ndarray:
-    """Difference of the blocks' means from the reference's in standard errors, (blocks, 3)."""
+    """Difference of the blocks' means from the reference's, in standard errors, (blocks, 3)."""
     both = block_means(variance + error**2, mask) / BLOCK**2  # pixels are independent
     return (block_means(found, mask) - block_means(wanted, mask)) / np.sqrt(both)

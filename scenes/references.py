@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The oracle's reference pictures of a whole sphere or slab, and what gives each in Blender."""
+"""The oracle's reference pictures of a whole sphere or slab, with their settings in Blender."""
 
 from dataclasses import dataclass
 
 from .pictures import Widths
 
-# Samples of each of two renders. Reflections of glass of alpha 1 are the dim part of its
-# light, and its transmission has narrow lobes: they have more noise.
+# Samples of each of two renders. Glass of alpha 1 has more noise: its reflections are the dim part
+# of its light, and its transmission has narrow lobes.
 SAMPLES = {"sun": 64, "back": 192, "inside": 128, "slab": 64}
 SAMPLES_OF_DIM_REFLECTIONS = 256
 SAMPLES_OF_WIDE_REFRACTIONS = 768
-# How the references' names call the kinds. A white metal and glass of IOR 1.5 lose nothing.
+# The kinds in the references' names. White metal and glass of IOR 1.5 lose no light.
 NAMES = {"CONDUCTOR": "white", "DIELECTRIC": "glass", "DIFFUSE": "diffuse"}
 OTHER_MODELS = ("height-uncorrelated", "height-tracked")
 
 
 @dataclass(frozen=True)
 class Case:
-    """A reference picture, and what gives it in Blender."""
+    """A reference picture, with its settings in Blender."""
 
     light: str
     kind: str
@@ -34,7 +34,7 @@ class Case:
 
     @property
     def samples(self) -> int:
-        """Of a render of all bounces."""
+        """Samples per pixel of a render of all bounces."""
         if self.kind == "DIELECTRIC" and self.widths.alpha_x == 1.0:
             if self.light == "sun":
                 return SAMPLES_OF_DIM_REFLECTIONS
@@ -44,7 +44,7 @@ class Case:
 
     @property
     def values(self) -> dict[str, object]:
-        """The inputs of the material."""
+        """The values of the material by identifier."""
         return {"Distribution": self.distribution, "Model": self.model, **self.widths.inputs}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders the open scene to linear EXR and reads it back; applies the scene's view transform."""
+"""Renders the open scene to linear EXR, reads it back, and applies the view transform."""
 
 import os
 import sys
@@ -19,9 +19,9 @@ _RENAMED = {"Object Index.X": "IndexOB.X"}
 def render_passes(path: Path, samples: int, seed: int, log: Path) -> tuple[dict, float]:
     """Render the scene into a multilayer float EXR at `path`.
 
-    Returns the passes by channel name without the layer, such as "Combined.R" or "IndexOB.X" (so
-    named also where Blender 5 says "Object Index.X"), each float32 (height, width) from the top
-    row down, and the seconds that the render took.
+    Returns the passes by channel name, each float32 (height, width) from the top row down, and the
+    seconds that the render took. Names have no layer, such as "Combined.R". Blender 5's
+    "Object Index.X" is "IndexOB.X" as in Blender 4.
     Blender's own messages are appended to `log`. Raises RuntimeError if no picture came out.
     """
     scene = bpy.context.scene
@@ -43,7 +43,7 @@ def render_passes(path: Path, samples: int, seed: int, log: Path) -> tuple[dict,
 
 
 def read_passes(path: Path) -> dict:
-    """Return the passes of the first view layer of a multilayer EXR, as render_passes() does."""
+    """Return the passes of a multilayer EXR as render_passes() does. Raises RuntimeError."""
     passes = {}
     source = oiio.ImageInput.open(str(path))
     if source is None:
@@ -61,7 +61,7 @@ def read_passes(path: Path) -> dict:
 
 
 def combined(passes: dict) -> np.ndarray:
-    """Return the picture's linear radiance, float32 (height, width, 3)."""
+    """Return the linear radiance of the picture, float32 (height, width, 3)."""
     return np.stack([passes[f"Combined.{channel}"] for channel in "RGB"], axis=-1)
 
 
@@ -73,7 +73,7 @@ def write_exr(path: Path, radiance: np.ndarray) -> None:
 
 
 def write_image(path: Path, pixels: np.ndarray, spec: oiio.ImageSpec) -> None:
-    """Write pixels (height, width, channels) as `spec` says. Raises RuntimeError on failure."""
+    """Write pixels (height, width, channels) as in `spec`. Raises RuntimeError on failure."""
     target = oiio.ImageBuf(spec)
     target.set_pixels(spec.roi, np.ascontiguousarray(pixels, dtype=np.float32))
     if not target.write(str(path)):
@@ -97,7 +97,7 @@ def write_display_png(path: Path, exr: Path) -> np.ndarray:
 
 @contextmanager
 def messages_to(log: Path) -> Iterator[None]:
-    """Append what Blender itself prints on standard output to `log` instead."""
+    """Send Blender's own messages from standard output to the end of `log`."""
     sys.stdout.flush()
     kept = os.dup(1)
     target = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)

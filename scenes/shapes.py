@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of the showcase: a torus knot, lathed bodies, a rounded cube, a cyclorama."""
+"""Builds the shapes of the showcase: a torus knot, lathed bodies, a cube, a cyclorama."""
 
 import math
 from itertools import pairwise
@@ -16,7 +16,8 @@ def torus_knot(
     """Return a tube along a torus knot around Z.
 
     turns -- times around the axis, and times through the hole
-    radii -- of the torus' circle and of its tube; `thickness` is the radius of the knot's own tube
+    radii -- of the torus' circle and of its tube
+    thickness -- radius of the knot's own tube
     """
     curve = bpy.data.curves.new(name, "CURVE")
     curve.dimensions = "3D"
@@ -68,7 +69,7 @@ def lathe(name: str, profile: list[Point], segments: int = 48) -> bpy.types.Mesh
                 upper[following % len(upper)],
                 upper[index % len(upper)],
             ]
-            # At a pole two of the four corners are one.
+            # At a pole, two of the four corners coincide.
             body.faces.new(list(dict.fromkeys(corners)))
     bmesh.ops.recalc_face_normals(body, faces=body.faces)
     _finish(mesh, body)

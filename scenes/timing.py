@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times the samples of a render, without the time that its start takes.
+"""Times the samples of a render, without its start.
 
-Times are those that all threads spend computing, which other work on the machine hardly changes.
+All times are processor seconds of all threads. Other work on the machine hardly changes them.
 """
 
 import statistics
@@ -14,17 +14,17 @@ import bpy
 
 @dataclass(frozen=True)
 class SampleTimes:
-    """Seconds of processor time per sample of several variants, measured in interleaved rounds.
+    """Seconds per sample of several variants, measured in interleaved rounds.
 
-    seconds -- by name of the variant, one figure a round, in the order of the rounds
-    starts  -- the same of a whole render with one sample: what a render takes before its samples
+    seconds -- by variant, the seconds per sample of each round
+    starts  -- by variant, the seconds of each round's render with one sample
     """
 
     seconds: dict[str, list[float]]
     starts: dict[str, list[float]]
 
     def joined(self, other: "SampleTimes") -> "SampleTimes":
-        """Return the rounds of both, which are of the same variants."""
+        """Return the rounds of both. They must have the same variants."""
         both = [
             {name: mine[name] + theirs[name] for name in mine}
             for mine, theirs in ((self.seconds, other.seconds), (self.starts, other.starts))
@@ -32,7 +32,7 @@ class SampleTimes:
         return SampleTimes(*both)
 
     def median(self, variant: str) -> float:
-        """Return the median over the rounds, in seconds per sample."""
+        """Return the median seconds per sample."""
         return statistics.median(self.seconds[variant])
 
     def start(self, variant: str) -> float:
@@ -40,15 +40,14 @@ class SampleTimes:
         return statistics.median(self.starts[variant])
 
     def ratio(self, variant: str, baseline: str) -> float:
-        """Return the median over the rounds of variant / baseline.
+        """Return the median of ratios().
 
-        Both times of a ratio lie next to one another, so that a load which comes and goes on the
-        machine weighs on both.
+        The two times of a round are neighbours, so passing load weighs on both.
         """
         return statistics.median(self.ratios(variant, baseline))
 
     def ratios(self, variant: str, baseline: str) -> list[float]:
-        """Return variant / baseline of every round."""
+        """Return variant / baseline for each round."""
         pairs = zip(self.seconds[variant], self.seconds[baseline], strict=True)
         return [ours / theirs for ours, theirs in pairs]
 
@@ -59,23 +58,23 @@ def time_samples(
     samples: int = 16,
     rounds: int = 5,
 ) -> SampleTimes:
-    """Measure the seconds of processor time per sample of every variant of `scene`.
+    """Measure the seconds per sample of each variant of `scene`.
 
-    variants -- by name, what to call to switch the scene to the variant
-    samples  -- number of samples that are timed, 1 or more
+    variants -- by name, a function that switches the scene to the variant
+    samples  -- number of timed samples, 1 or more
     rounds   -- how often all variants are timed, one after the other, 1 or more
 
-    In each round a variant is rendered with 1 sample and with 1 + `samples`: the difference of
-    these two times counts. Before the first round's, it is rendered once to warm up. The scene's
-    samples, seed and persistent data are put back at the end.
-    Raises ValueError for a number below 1 and RuntimeError where a render takes no time at all.
+    Each round renders a variant with 1 sample and with 1 + `samples`, and takes the difference. The
+    first round begins with a render to warm up. The scene's samples, seed and persistent data are
+    restored at the end.
+    Raises ValueError for a number below 1, and RuntimeError if the samples take no time.
     """
     if samples < 1 or rounds < 1:
         raise ValueError(f"samples is {samples}, rounds is {rounds}: both must be 1 or more")
     seconds: dict[str, list[float]] = {name: [] for name in variants}
     starts: dict[str, list[float]] = {name: [] for name in variants}
     kept = scene.cycles.samples, scene.cycles.seed, scene.render.use_persistent_data
-    # With it Cycles would not notice that the number of samples changed.
+    # With persistent data, Cycles would not notice another number of samples.
     scene.render.use_persistent_data = False
     try:
         for turn in range(rounds):
@@ -97,7 +96,7 @@ def time_samples(
 
 
 def _render(scene: bpy.types.Scene, samples: int) -> float:
-    """Render without writing a picture; return the seconds that all threads computed."""
+    """Render without writing a picture; return the processor seconds of all threads."""
     scene.cycles.samples = samples
     begin = time.process_time()
     bpy.ops.render.render(write_still=False, scene=scene.name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switches our materials of an open scene between the qualities and Cycles' own closures."""
+"""Switches the materials of an open scene between our qualities and Cycles' own closures."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ from addon.material.variants import Placed, placed_in
 
 @dataclass(frozen=True)
 class Material:
-    """A material that is made of one of our node groups, and the object index that shows it."""
+    """A material with one of our node groups, and the index of the objects that show it."""
 
     name: str
     index: int
@@ -21,21 +21,21 @@ class Material:
 
     @property
     def placed(self) -> Placed:
-        """The node of the group with the tree that it is in."""
+        """The group node with its tree."""
         return next(placed_in([self.material.node_tree]))
 
     @property
     def node(self) -> bpy.types.ShaderNodeGroup:
-        """The node of the group in the material."""
+        """The group node of the material."""
         return self.placed.node
 
     @property
     def kind(self) -> Kind:
-        """What it is made of."""
+        """The kind of the group: metal, glass or matte."""
         return self.placed.kind
 
     def set(self, identifier: str, value: object) -> None:
-        """Set a parameter by its identifier; raises what Parameter.checked() raises."""
+        """Set a parameter by its identifier. Raises as Parameter.checked()."""
         self.placed.set(identifier, value)
 
     def get(self, identifier: str) -> object:
@@ -44,9 +44,9 @@ class Material:
 
 
 def find_materials() -> list[Material]:
-    """Return our materials of the open file, of any kind, by rising object index.
+    """Return our materials of the open file, of all kinds, by rising object index.
 
-    Raises RuntimeError if there is none, or where one of them holds no compiled shader.
+    Raises RuntimeError if there is none, or if one has no compiled shader.
     """
     found = {}
     for thing in bpy.context.scene.objects:
@@ -75,6 +75,6 @@ def use_quality(materials: list[Material], quality: str) -> None:
 
 
 def use_cycles_multiscatter(materials: list[Material]) -> None:
-    """Show the materials with Cycles' own closure of the same values, as Placed.show_cycles()."""
+    """Show the materials with Cycles' own closure and the same values."""
     for material in materials:
         material.placed.show_cycles()

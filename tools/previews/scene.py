@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scene of the preset pictures: a grooved ball on a checkered stage under soft lights."""
+"""Builds the scene of the preset pictures: a grooved ball on a checkered stage in soft light."""
 
 import math
 
@@ -10,7 +10,7 @@ from scenes import common, shapes
 SIZE = 104  # pixels along each side of a picture
 SAMPLES = 40
 
-# The stage's two colours. What they border is what glass shows bent.
+# The stage's two colours. Glass shows their borders bent.
 _LIGHT, _DARK = (0.46, 0.46, 0.46), (0.22, 0.22, 0.23)
 _SQUARE = 0.62  # length of a square's side
 _RADIUS = 1.0
@@ -19,14 +19,14 @@ _TILT = (math.radians(26.0), math.radians(-14.0), 0.0)  # towards the camera and
 
 
 def build() -> tuple[bpy.types.Scene, bpy.types.Object]:
-    """Empty the file and return the scene and its ball, which has no material yet."""
+    """Empty the file; return the scene and its ball, which has no material yet."""
     scene = common.start_scene((SIZE, SIZE), SAMPLES)
     cycles = scene.cycles
     cycles.max_bounces = 8
     cycles.diffuse_bounces = 2
     cycles.glossy_bounces = 4
     cycles.transmission_bounces = 8
-    # What is lost to these is noise that a picture this small never shows right.
+    # These cost light, but a picture this small would show it as noise.
     cycles.sample_clamp_indirect = 4.0
     cycles.use_denoising = True
     cycles.denoiser = "OPENIMAGEDENOISE"
@@ -34,10 +34,13 @@ def build() -> tuple[bpy.types.Scene, bpy.types.Object]:
     scene.view_settings.view_transform = "Khronos PBR Neutral"
     common.set_world(scene, (0.38, 0.40, 0.43))
     _add_stage()
-    # A large window, a strip that draws the edge, and a ceiling.
-    _add_light("Window", (-3.4, -3.4, 3.6), (2.6, 2.6), 270.0)
-    _add_light("Strip", (3.3, 0.6, 2.2), (0.7, 3.2), 130.0)
-    _add_light("Ceiling", (0.2, 0.6, 5.0), (3.0, 2.0), 110.0)
+    # A large window, a strip for the edge, and a ceiling.
+    for name, location, size, watts in (
+        ("Window", (-3.4, -3.4, 3.6), (2.6, 2.6), 270.0),
+        ("Strip", (3.3, 0.6, 2.2), (0.7, 3.2), 130.0),
+        ("Ceiling", (0.2, 0.6, 5.0), (3.0, 2.0), 110.0),
+    ):
+        common.add_area_light(name, location, (0.0, 0.0, 0.9), size, watts)
     camera = common.add_camera(scene, (0.0, -7.2, 2.35), (0.0, 7.2, -1.38), 19.6)
     camera.data.sensor_fit = "HORIZONTAL"
     return scene, _add_ball()
@@ -78,7 +81,7 @@ def _checkered() -> bpy.types.Material:
     tree = material.node_tree
     tree.nodes.clear()
     where = tree.nodes.new("ShaderNodeTexCoord")
-    # Off the floor, where the squares of the third direction would meet it and flicker.
+    # Moves the squares off the floor, where those of the third direction would flicker.
     shift = tree.nodes.new("ShaderNodeVectorMath")
     shift.inputs[1].default_value = (0.5 * _SQUARE, 0.1, 0.5 * _SQUARE)
     checker = tree.nodes.new("ShaderNodeTexChecker")
@@ -95,15 +98,3 @@ def _checkered() -> bpy.types.Material:
     ):
         tree.links.new(source, target)
     return material
-
-
-def _add_light(
-    name: str, location: tuple[float, float, float], size: tuple[float, float], watts: float
-) -> None:
-    light = bpy.data.lights.new(name, "AREA")
-    light.shape = "RECTANGLE"
-    light.size, light.size_y = size
-    light.energy = watts
-    added = common.add_object(name, light)
-    added.location = location
-    common.aim(added, tuple(t - p for t, p in zip((0.0, 0.0, 0.9), location, strict=True)))

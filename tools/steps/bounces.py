@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is missing from a sphere whose light ends after n bounces, by the oracle: as a picture and
-as energy."""
+"""Measures by the oracle what a sphere lacks if its light ends after n bounces.
+
+The difference is taken as a picture and as energy.
+"""
 
 from collections.abc import Callable, Iterator
 
@@ -24,25 +26,24 @@ from osl.oracle.materials import Material
 from osl.oracle.view import to_local
 
 SEED = 1
-WALKS = 2000  # at each point: the largest entries then are within 2 % of themselves
+WALKS = 2000  # at each point, for a relative error of 2 % in the largest entries
 ALPHAS = (0.02, 0.05, 0.1, 0.15, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0)
 INDICES = (1.05, 1.5, 2.5)  # of glass
 DISTRIBUTIONS = (GGX, BECKMANN)
 MODELS = (CORRELATED, UNCORRELATED, HEIGHT_TRACKED)
 BOUNCES = 24
-SMALLEST = 5e-5  # entries below are left out
+SMALLEST = 5e-5
 
 _RESOLUTION = 16  # points of the sphere across the picture
-# Nearer to the horizon an opaque surface sends next to nothing, and walks find it by chance.
+# Closer to the horizon an opaque surface sends too little light for walks to measure.
 _LOWEST_SUN = 0.02
 _SUN, _BACK = sphere.FRONT_SUN, sphere.BACK_SUN
 
 
 def rows(measure: Callable[[Surface], tuple[float, ...]]) -> Iterator[dict]:
-    """Measure the surfaces of each kind, distribution and model (and index, of glass) by alpha.
+    """Yield a row for each kind, distribution, model and, for glass, index.
 
-    `after` has at each of ALPHAS what is missing after bounce 1, 2, ..., as `measure` returns it,
-    which is left_out() or energy_lost().
+    measure -- left_out() or energy_lost(). `after` in a row has its result at each of ALPHAS.
     """
     materials: list[tuple[str, float, Material]] = [
         ("CONDUCTOR", 0.0, Conductor()),
@@ -63,12 +64,11 @@ def rows(measure: Callable[[Surface], tuple[float, ...]]) -> Iterator[dict]:
 
 
 def left_out(surface: Surface, walks: int = WALKS, seed: int = SEED) -> tuple[float, ...]:
-    """Return what is missing after bounce 1, 2, ..., down to SMALLEST: image L2 over that of all
-    bounces, where facets absorb nothing.
+    """Return the image L2 of what is missing after bounce 1, 2, ..., over that of all bounces.
 
-    It is the most of several pictures of a sphere: under the sun and in a uniform world; of glass
-    also with the sun behind, and seen from inside the solid. Of coloured facets what is missing
-    follows by powers of their colour.
+    Facets absorb nothing. For coloured facets, powers of their colour scale the result. It is the
+    largest of several pictures of a sphere: under the sun and in a uniform world, for glass also
+    with the sun behind and seen from inside the solid. Entries below SMALLEST are left out.
     """
     glass = surface.material.transmits
     pictures = [
@@ -80,11 +80,11 @@ def left_out(surface: Surface, walks: int = WALKS, seed: int = SEED) -> tuple[fl
 
 
 def energy_lost(surface: Surface, walks: int = WALKS, seed: int = SEED) -> tuple[float, ...]:
-    """Return the energy that is missing after bounce 1, 2, ..., down to SMALLEST, over that of all
-    bounces, where facets absorb nothing.
+    """Return the energy that is missing after bounce 1, 2, ..., over that of all bounces.
 
-    It is that of all of a sphere's picture in a uniform world; of glass the most of that and of
-    what is seen from inside the solid.
+    Facets absorb nothing. The energy is that of a sphere's whole picture in a uniform world. For
+    glass it is the larger of that and of the view from inside the solid. Entries below SMALLEST are
+    left out.
     """
     sides = (False, True) if surface.material.transmits else (False,)
     worlds = [light(surface, None, inside, walks, seed).mean(axis=(1, 2)) for inside in sides]
@@ -101,8 +101,10 @@ def _down_to_smallest(parts: list[list[float]]) -> tuple[float, ...]:
 def light(
     surface: Surface, sun: np.ndarray | None, inside: bool, walks: int, seed: int
 ) -> np.ndarray:
-    """Return the light of every bounce at points of the sphere that are even in the picture,
-    ``(BOUNCES, n, 3)``; without a ``sun`` that of a uniform world."""
+    """Return the light of each bounce, ``(BOUNCES, n, 3)``, at points even in the picture.
+
+    sun -- direction to the sun, a unit vector; None for a uniform world
+    """
     points, mask = sphere.sphere_points(_RESOLUTION, 1)
     normals = points[mask].reshape(-1, 3)
     axes = sphere.local_frames(-normals if inside else normals)
@@ -117,6 +119,6 @@ def light(
 
 
 def missing(picture: np.ndarray) -> list[float]:
-    """Return what `light` lacks after bounce 1, 2, ..., over all of it."""
+    """Return the norm of what `picture` lacks after bounce 1, 2, ..., over that of all bounces."""
     whole = np.linalg.norm(picture.sum(axis=0))
     return [float(np.linalg.norm(picture[k:].sum(axis=0)) / whole) for k in range(1, BOUNCES)]

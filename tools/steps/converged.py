@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors of converged pictures of each step against the oracle's references."""
+"""Measures the errors of each step's converged pictures against the oracle's references."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -9,7 +9,6 @@ from scenes import pictures
 from scenes.pictures import WHITE, Widths
 from scenes.references import CASES, Case
 
-# Distributions and models as the references' names have them.
 ISOTROPIC, ANISOTROPIC = "isotropic", "anisotropic"
 METALS = [
     *(
@@ -24,17 +23,16 @@ LARGEST_SPREAD = 0.003
 
 
 def rows(tell: Callable[[str], None]) -> list[dict]:
-    """Render all references' cases; of several lights the largest error counts.
+    """Return a row of errors by the larger alpha for each kind, sort, distribution and step.
 
-    A row is of one kind, sort of surface, distribution and step, by the larger alpha. The sort is
-    "isotropic", "anisotropic", or a model that is not height-correlated. Single is compared with
-    the oracle's first bounce, the others with all bounces. Errors have their standard error added.
-    `tell` is told what is being done.
+    The sort is "isotropic", "anisotropic", or a model that is not height-correlated. Single is
+    compared with the oracle's first bounce, the other steps with all bounces. Each error includes
+    its standard error, and is the largest of all lights. `tell` prints the progress.
     """
     found: dict[tuple[str, str, str, str], dict[float, float]] = defaultdict(dict)
     for case in (*METALS, *CASES):
         for step in STEPS:
-            # The references of this model have no first bounce of their own.
+            # References of this model have no first bounce.
             if step == "Single" and case.model == "height-tracked":
                 continue
             error = measured(case, step)
@@ -56,9 +54,9 @@ def rows(tell: Callable[[str], None]) -> list[dict]:
 
 
 def measured(case: Case, step: str) -> float:
-    """Return the error of the converged picture and its standard error together.
+    """Return the error of the converged picture plus its standard error.
 
-    Where that is large the pictures are rendered with more samples, up to MOST_SAMPLES.
+    If the standard error is large, the pictures get more samples, up to MOST_SAMPLES.
     """
     wanted = pictures.reference(case.reference)
     material = pictures.open_lit(case.light, case.kind)

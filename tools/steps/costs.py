@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a sample of a pixel costs that shows a material, in the scene of mixed materials."""
+"""Measures the time of a sample of a pixel for each kind of material and step."""
 
 from collections.abc import Iterable
 from functools import partial
@@ -27,11 +27,10 @@ def measure(
     samples: int = SAMPLES,
     rounds: int = ROUNDS,
 ) -> tuple[list[dict], float]:
-    """Time these kinds, in all steps at these alphas, each on all spheres of the scene, over BASE,
-    which must be one of them.
+    """Return rows of costs, and the cost of a pixel of the world, all relative to BASE.
 
-    Returns rows of costs, and the cost of a pixel that shows nothing but the world. The costs are
-    of what the spheres cover: what the world around them takes is subtracted.
+    Each kind, step and alpha covers all spheres of the scene of mixed materials in turn. They must
+    include BASE. The time of the world around the spheres is subtracted.
     """
     scene = mixed.build(resolution=SIZE)
     spheres = [thing for thing in scene.objects if thing.type == "MESH"]

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opens a real Blender with its window, as an artist does, and uses the extension in it."""
+"""Uses the extension in the window of a real Blender, as an artist does: `make test-window`."""

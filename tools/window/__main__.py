@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tries the extension in a real Blender's window: `test` runs the tests, `pictures` renews docs/.
 
-Where no such Blender can be opened it says why, and ends with exit code 0.
+If no such Blender can be opened, it says why and ends with exit code 0.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from scenes.leave import leave
 from .blender import NoWindowError, find_blender, need_display
 from .session import NODES, PROPERTIES, ROOT, run_session
 
-# The pictures in docs/: at which moment of the session, and which editor.
+# The pictures in docs/: the moment of the session, and the editor.
 _PICTURES = {
     "presets.jpg": ("pictures", PROPERTIES),
     "shader_editor.jpg": ("checked", NODES),
@@ -25,7 +25,7 @@ _PICTURES = {
 
 
 def main() -> int:
-    """Do what the command line says and return the exit code."""
+    """Do what the command line says; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("task", choices=("test", "pictures"))
     task = parser.parse_args().task
@@ -51,7 +51,7 @@ def _pictures() -> int:
         folder = Path(name)
         result = run_session(folder)
         if result["errors"] or not (folder / "searched.xwd").is_file():
-            reasons = result["errors"] or ["there is no Xvfb to take pictures of: install it"]
+            reasons = result["errors"] or ["pictures need Xvfb: install it"]
             print("No picture was taken:", *reasons, file=sys.stderr)
             return 1
         for name, (moment, editor) in _PICTURES.items():

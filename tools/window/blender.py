@@ -18,11 +18,11 @@ _START_OF_XVFB = 10.0  # seconds
 
 
 class NoWindowError(RuntimeError):
-    """This machine cannot open a Blender with a window; the text says what is missing."""
+    """This machine cannot open a Blender with a window. The message says what is missing."""
 
 
 def find_blender() -> list[str]:
-    """Return the command that starts Blender: the environment variable BLENDER, or from PATH.
+    """Return the command that starts Blender, from the variable BLENDER or from PATH.
 
     Raises NoWindowError if there is none.
     """
@@ -37,7 +37,7 @@ def find_blender() -> list[str]:
 
 
 def need_display() -> None:
-    """Raise NoWindowError where there is neither a display nor Xvfb to make one."""
+    """Raise NoWindowError if there is neither a display nor Xvfb to make one."""
     if sys.platform == "linux" and not _has_display() and not _has_xvfb():
         raise NoWindowError("no display: install Xvfb, or set DISPLAY")
 
@@ -45,11 +45,11 @@ def need_display() -> None:
 def run_in_window(script: Path, settings: dict[str, object], seconds: float) -> dict[str, object]:
     """Run `script` in the window of a Blender with factory settings; return its result.
 
-    The script finds `settings` in the JSON file that is its first argument, and with them "screen":
-    the file that holds the screen where that is Xvfb's, else "". It writes its result as JSON to
-    the second. User files go to a folder that is deleted afterwards. The result's key
-    "printed" has what Blender wrote to the console. Raises NoWindowError if no window can be
-    opened, TimeoutError after `seconds`, RuntimeError where the script left no result.
+    The script's first argument is a JSON file with `settings`. Their key "screen" names the file
+    that holds Xvfb's screen, "" without Xvfb. The script writes its result as JSON to the second
+    argument. User files go to a folder that is deleted afterwards. The result's key "printed" has
+    what Blender wrote to the console. Raises NoWindowError if no window can be
+    opened, TimeoutError after `seconds`, RuntimeError if the script left no result.
     """
     blender = find_blender()
     need_display()
@@ -81,7 +81,7 @@ def run_in_window(script: Path, settings: dict[str, object], seconds: float) -> 
 def _run(
     command: list[str], environment: dict[str, str], log: Path, seconds: float
 ) -> tuple[int, str]:
-    """Return exit code and output. The whole group of processes ends with it."""
+    """Return exit code and output. At a timeout the whole group of processes ends."""
     with log.open("w", encoding="utf-8") as sink:
         process = subprocess.Popen(
             command,
@@ -102,7 +102,7 @@ def _run(
 
 
 def _end(process: subprocess.Popen) -> None:
-    """End a process that has a session of its own, with its children."""
+    """End a process in its own session, with its children."""
     if hasattr(os, "killpg"):
         os.killpg(process.pid, 9)
     else:
@@ -124,7 +124,7 @@ def _display(folder: str) -> Iterator[dict[str, str]]:
     if not _has_xvfb():
         yield {}
         return
-    # It picks a free number by itself and writes it into the pipe.
+    # Xvfb picks a free number and writes it into the pipe.
     reading, writing = os.pipe()
     screen = ["-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-fbdir", folder]
     server = subprocess.Popen(

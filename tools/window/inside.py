@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs in Blender: installs the extension, uses it in the window, and writes down what happened.
+"""Runs in Blender: installs the extension, uses it in the window, and records what happens.
 
-Arguments after `--`: a JSON file with "archive" (the extension's zip), "folder" (for pictures) and
-"screen" (the file that is Xvfb's screen, "" if there is none); the JSON file for the result.
+The arguments after `--` are two JSON files. The first has "archive" (the extension's zip), "folder"
+(for pictures), "screen" (the file of Xvfb's screen, or "") and "seconds". The second is for the
+result.
 """
 
 import faulthandler
@@ -25,7 +26,7 @@ MODULE = "bl_ext.user_default.microbounce"
 
 _PIXELS = 32
 _EEVEE = "BLENDER_EEVEE" if bpy.app.version >= (5, 0, 0) else "BLENDER_EEVEE_NEXT"
-# A preset's name, which the search finds.
+# The preset that the search finds.
 _SEARCHED = "Copper"
 
 SETTINGS, RESULT = (Path(name) for name in sys.argv[sys.argv.index("--") + 1 :])
@@ -34,11 +35,11 @@ result: dict[str, object] = {"drawn": [], "ran": {}, "states": {}, "errors": [],
 
 
 def steps() -> Iterator[float]:
-    """Do one thing after the other; each waits the yielded seconds, in which Blender draws."""
+    """Run the session. Blender draws during the yielded seconds."""
     result["version"] = bpy.app.version_string
     result["installed"] = _install()
     _make_scene()
-    # Before an editor shows the material: its preview would be rendered at the same time.
+    # Before an editor shows the material, because its preview would render at the same time.
     result["centres"] = {engine: _rendered_centre(engine) for engine in ("EEVEE", "CYCLES")}
     yield from _as_installed()
     names = watch_panels(MODULE, result["drawn"], result["errors"], opened=True)
@@ -53,7 +54,7 @@ def steps() -> Iterator[float]:
 
 
 def _as_installed() -> Iterator[float]:
-    """Look at the panels as they are at first, and find a preset by typing its name."""
+    """Look at the panels as installed, and find a preset by typing its name."""
     area(PROPERTIES).spaces.active.context = "MATERIAL"
     yield from drawn()
     _note("added")
@@ -74,7 +75,7 @@ def _as_installed() -> Iterator[float]:
 
 
 def _pictures() -> Iterator[float]:
-    """Look at the pictures of the presets where there is room for them."""
+    """Look at the presets' pictures in a large editor."""
     large = area(VIEW)
     large.ui_type = PROPERTIES
     large.spaces.active.context = "MATERIAL"
@@ -88,11 +89,11 @@ def _pictures() -> Iterator[float]:
 
 
 def _all_open() -> Iterator[float]:
-    """Press the buttons with all panels open, and take back what they did."""
+    """Press the buttons with all panels open, then undo."""
     yield from _pictures()
     area(PROPERTIES).spaces.active.context = "MATERIAL"
     yield from editors.show_nodes()
-    # A zip may be made without the library.
+    # The zip may lack the library.
     library = bpy.ops.microbounce.register_library.poll()
     for name in ("analyse", "check_farm", "check_render", *["register_library"] * library):
         _run(name, PROPERTIES)
@@ -136,14 +137,14 @@ def _make_scene() -> None:
 
 
 def _run(name: str, ui_type: str, **arguments: object) -> None:
-    """Press a button in an editor, with a step of undo as a press has."""
+    """Press a button in an editor, with an undo step."""
     with in_area(ui_type):
         done = getattr(bpy.ops.microbounce, name)("EXEC_DEFAULT", True, **arguments)
     result["ran"][name] = sorted(done)
 
 
 def _note(name: str) -> None:
-    """Keep what the screen shows, where on it the editors are, and what the material is."""
+    """Keep the screen, the places of the editors, and the material's nodes."""
     if settings["screen"]:
         shutil.copyfile(settings["screen"], Path(settings["folder"], f"{name}.xwd"))
     shown = {found.ui_type: found for found in window().screen.areas}
@@ -157,7 +158,7 @@ def _note(name: str) -> None:
 
 
 def _rendered_centre(engine: str) -> list[float]:
-    """Render the scene small with `engine`; return the mean colour of the picture's middle."""
+    """Render a small picture with `engine`; return the mean colour of its middle."""
     scene = window().scene
     before = scene.render.engine
     scene.render.engine = engine if engine == "CYCLES" else _EEVEE
@@ -191,13 +192,13 @@ def _next() -> float | None:
         return next(_running)
     except StopIteration:
         result["done"] = True
-    except Exception:  # noqa: BLE001 - whatever it is, the session tells it and ends
+    except Exception:  # noqa: BLE001 - the result reports it
         result["errors"].append(traceback.format_exc())
     _finish()
     return None
 
 
-# Where it hangs, if it does.
+# Prints where it hangs.
 faulthandler.dump_traceback_later(settings["seconds"])
 # Before Blender draws for the first time.
 bpy.context.preferences.view.show_splash = False

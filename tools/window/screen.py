@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts the README's pictures out of Xvfb's screen."""
+"""Cuts pictures out of Xvfb's screen."""
 
 import struct
 from pathlib import Path
@@ -9,10 +9,9 @@ import numpy as np
 
 
 def save_part(screen: Path, part: list[int], target: Path, quality: int = 75) -> None:
-    """Save a part of a screen, as a PNG or, for another suffix of `target`, as a JPEG.
+    """Save a part of a screen, as PNG if `target` ends in .png, else as JPEG.
 
-    screen  -- what Xvfb keeps in its folder: an X window dump, whose pixels are blue, green, red
-               and a byte without meaning
+    screen  -- Xvfb's file: an X window dump with the bytes blue, green, red, unused per pixel
     part    -- left, bottom, width and height in pixels, from the screen's bottom left
     quality -- of a JPEG, 0 to 100
     """
@@ -30,7 +29,7 @@ def save_part(screen: Path, part: list[int], target: Path, quality: int = 75) ->
 def _pixels(screen: Path) -> np.ndarray:
     """Return the (height, width, 4) bytes of an X window dump, from its top row on.
 
-    Raises ValueError if it is of another form than Xvfb's with 24 bits a pixel.
+    Raises ValueError unless it is a dump of 24 bits a pixel, as Xvfb writes.
     """
     data = screen.read_bytes()
     header = struct.unpack(">25I", data[:100])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One session in Blender's window with the zip that the repository makes."""
+"""Runs one session in Blender's window with the repository's zip."""
 
 import subprocess
 import sys
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .blender import SIZE, run_in_window
 
-# Editors, by Blender's names of their types.
+# Types of editors, as Blender names them.
 NODES, PROPERTIES, VIEW = "ShaderNodeTree", "PROPERTIES", "VIEW_3D"
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,11 +18,10 @@ _BUILD, _SESSION = 300.0, 300.0
 
 
 def run_session(folder: Path) -> dict[str, object]:
-    """Build the zip, use it in a window, and return what `inside.py` wrote down.
+    """Build the zip, use it in a window, and return the result of `inside.py`.
 
-    Screens come to lie in `folder` and, as PNGs, in build/window. Raises what run_in_window()
-    raises, and
-    subprocess.CalledProcessError where the zip cannot be built.
+    Screens go to `folder` and, as PNGs, to build/window. Raises as run_in_window(), and
+    subprocess.CalledProcessError if the zip cannot be built.
     """
     builder = [sys.executable, "-m", "tools.release.extension"]
     places = ["--output", str(folder / "dist"), "--work", str(folder / "build")]
@@ -37,7 +36,7 @@ def run_session(folder: Path) -> dict[str, object]:
 
 
 def _show_screens(folder: Path) -> None:
-    """Save the screens where somebody can look at them."""
+    """Save the screens as PNGs in build/window."""
     from .screen import save_part
 
     _SCREENS.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Notes which of an extension's panels are drawn, and what goes wrong there; runs in Blender."""
+"""Notes which panels of an extension are drawn, and their errors. Runs in Blender."""
 
 import sys
 import traceback
@@ -8,10 +8,10 @@ import bpy
 
 
 def watch_panels(module: str, drawn: list[str], errors: list[str], opened: bool) -> list[str]:
-    """Register the panels of `module` again, noting in `drawn` and `errors` what they do.
+    """Register the panels of `module` again so that they note what they do; return their names.
 
-    opened -- whether those that are closed at first are open, in screens not yet shown
-    Returns the panels' names.
+    drawn, errors -- get the names of drawn panels, and the tracebacks of failed ones
+    opened -- whether panels that start closed are open in screens that Blender shows later
     """
     parts = sys.modules[f"{module}.registration"]._MODULES
     found = [cls for part in parts for cls in getattr(part, "CLASSES", ())]
