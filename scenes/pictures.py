@@ -130,7 +130,7 @@ def reference(name: str) -> dict[str, np.ndarray]:
 
 
 def l2_error(found: np.ndarray, wanted: np.ndarray, mask: np.ndarray) -> float:
-    """Root of the summed squared difference over that of the reference, within the mask."""
+    """Image L2 error: the norm of `found` - `wanted` over the norm of `wanted`, in the mask."""
     difference = found[mask] - wanted[mask]
     return float(np.sqrt(np.sum(difference**2) / np.sum(wanted[mask] ** 2)))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The committed .blend files: current, small, self-contained, and as the oracle assumes."""
+"""The committed .blend files are current, small, self-contained, and as the oracle assumes."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ SPHERES = [f"{scene}_{kind.lower()}" for kind in KINDS for scene in ("furnace", 
 SUNS = [f"sphere_sun_{kind.lower()}" for kind in KINDS]
 FIXTURES = [*SPHERES, "slab_dielectric"]
 NAMES = ["showcase", *FIXTURES]
-# Of float32 rotations and positions.
+# Error of float32 rotations and positions.
 ROUNDING = 1e-6
 
 
@@ -38,7 +38,7 @@ def test_file_holds_the_current_shader(name):
     kind = "CONDUCTOR" if name == "showcase" else name.rpartition("_")[2].upper()
     (group,) = {material.node.node_tree for material in variants.find_materials()}
     assert has_bytecode(group)
-    # It returns the file's own group only where its source and parameters are today's.
+    # It returns the file's own group only if source and parameters are today's.
     assert material_group(kind) == group, "build the scenes anew with 'make scenes'"
 
 
@@ -82,13 +82,13 @@ def test_camera_is_the_oracles(name):
     assert scene.cycles.pixel_filter_type == "BOX"
     assert scene.cycles.filter_width == 1.0
     axes = np.array(camera.matrix_world.to_3x3())
-    # Columns: the picture's right and up, and the direction to the viewer; float32 rounding.
+    # Columns: right and up in the picture, and the direction to the viewer.
     wanted = np.column_stack([(1, 0, 0), (0, 0, 1), sphere.VIEW_DIRECTION])
     np.testing.assert_allclose(axes, wanted, atol=ROUNDING)
 
 
 def towards_sun() -> np.ndarray:
-    """The unit vector towards the open file's sun, which is checked to have no size."""
+    """The unit vector towards the open file's sun. Fails if the sun has a size."""
     bpy.context.view_layer.update()
     sun = bpy.data.objects["Sun"]
     assert sun.data.energy == 1.0
@@ -127,7 +127,7 @@ def test_sphere_is_smooth_round_and_of_radius_one(name):
     corners = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1.0, atol=1e-6)
-    # Means of facet normals lie off the radius by the square of the facets' angle, 0.012 rad.
+    # Means of facet normals are off the radius by the square of the facets' angle, 0.012 rad.
     np.testing.assert_allclose(normals, points[corners], atol=1e-4)
 
 
@@ -145,7 +145,7 @@ def test_sphere_can_be_turned_inside_out():
 @pytest.mark.parametrize("inside", [False, True])
 @pytest.mark.parametrize("name", [name for name in SPHERES if name.startswith("furnace")])
 def test_what_leaves_a_lossless_surface_is_counted_once(name, inside, tmp_path):
-    """Exact follows each path to its one exit, so that any loss or gain is the scene's."""
+    """Exact follows each path to its only exit, so any loss or gain is the scene's."""
     scene = opened(name)
     fixtures.turn_inside_out(inside)
     (material,) = variants.find_materials()
@@ -154,7 +154,7 @@ def test_what_leaves_a_lossless_surface_is_counted_once(name, inside, tmp_path):
     material.set("MaxBounces", 64)
     scene.render.resolution_x = scene.render.resolution_y = 16
     passes, _ = render.render_passes(tmp_path / "furnace.exr", 8, 0, tmp_path / "log")
-    # Sums of ones in float32, also outside the sphere; no walk has 64 bounces.
+    # Every pixel is a mean of ones in float32. No walk has 64 bounces.
     np.testing.assert_allclose(render.combined(passes), 1.0, atol=1e-5)
 
 

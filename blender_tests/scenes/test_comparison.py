@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The labelled picture of the demo."""
+"""The demo's picture with titles and captions."""
 
 import numpy as np
 import OpenImageIO as oiio

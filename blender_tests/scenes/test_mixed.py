@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The analysis keeps what it promises on a small scene of mixed materials."""
+"""The analysis keeps its promises on a small scene of mixed materials."""
 
 import time
 
@@ -19,7 +19,7 @@ TOLERANCE = 0.03
 
 @pytest.mark.nightly
 def test_the_measured_error_is_within_the_tolerance(report) -> None:
-    """That of the converged picture against Exact, of two renders each; so is what is predicted."""
+    """So is the predicted error. The measured one is converged, against Exact, of two renders each."""
     mixed.build(COUNT, SIZE)
     found = mixed_demo.AnalysedScene(TOLERANCE)
     predicted = found.predicted(mixed_demo.ANALYSED)
@@ -32,7 +32,7 @@ def test_the_measured_error_is_within_the_tolerance(report) -> None:
     report("analysed scene of six materials, error", value, f"{TOLERANCE:.0%}")
     assert error + 2.0 * spread < TOLERANCE
     assert spread < 0.5 * TOLERANCE
-    # What it would be without the further bounces, so that the test can fail.
+    # Without further bounces the error is larger, so the test can fail.
     lost, _ = mixed_demo.difference(found.pictures("Single", 192, first_seed=0), wanted)
     assert lost > TOLERANCE
 
@@ -40,8 +40,7 @@ def test_the_measured_error_is_within_the_tolerance(report) -> None:
 @pytest.mark.nightly
 @pytest.mark.timing
 def test_it_takes_less_time_than_walk(report) -> None:
-    """Of the processor's, for a whole render with its start; the first render is at a disadvantage,
-    since it warms Blender up."""
+    """Processor time of a whole render. The analysed one is rendered first, which also warms up."""
     scene = mixed.build(COUNT, (120, 80))
     scene.cycles.samples = 48
     found = mixed_demo.AnalysedScene(TOLERANCE)
@@ -57,14 +56,14 @@ def test_it_takes_less_time_than_walk(report) -> None:
 
 
 def test_twenty_materials_of_all_kinds() -> None:
-    """All are found and seen alike; what is applied proposes nothing more."""
+    """All are found with similar shares. A second analysis proposes nothing."""
     mixed.build()
     found = found_nodes(shown_materials(bpy.context))
     assert len(found) == len(mixed.RECIPES) == 20
     assert {one.kind.identifier for one in found} == {"CONDUCTOR", "DIELECTRIC", "DIFFUSE"}
     first = analyse(bpy.context, 0.01)
     shares = [row.proposal.share for row in first.rows]
-    # Spheres of one size, some of which others mirror.
+    # The spheres have one size, but some mirror others.
     assert np.ptp(shares) < 0.3 * np.mean(shares)
     assert not any(row.notes for row in first.rows)
     done, left = apply(bpy.context, first)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The timing of samples."""
+"""Samples are timed in interleaved rounds."""
 
 from pathlib import Path
 

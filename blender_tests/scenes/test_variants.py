@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switching materials between Microbounce and Cycles' own closure, as the demo does."""
+"""Materials switch between Microbounce and Cycles' own closure, as in the demo."""
 
 import bpy
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The script that makes the virtual environments: what it says, and which Python it takes."""
+"""The script that makes the virtual environments: its messages and its choice of Python."""
 
 import os
 import shutil
@@ -15,9 +15,9 @@ NEEDED = ("bash", "cat", "cksum", "dirname", "rm", "tail")
 
 @pytest.fixture
 def bare(tmp_path):
-    """A copy of the script in a project of its own that knows no system folders; returns a runner.
+    """A function that runs a copy of the script, in a project of its own, without system folders.
 
-    The path holds a space. Only the commands in `NEEDED` are on PATH, besides what is put there.
+    The project's path has a space. PATH has only the commands in `NEEDED` and what a test adds.
     """
     project = tmp_path / "a project"
     (project / "tools").mkdir(parents=True)
@@ -34,7 +34,7 @@ def bare(tmp_path):
     script.write_text(text)
 
     def run(*arguments, **environment):
-        """Run the script; a variable that is None is not set at all."""
+        """Run the script. A variable that is None is not set."""
         given = {"PATH": str(commands), "HOME": str(tmp_path / "home")} | environment
         return subprocess.run(
             [commands / "bash", "tools/environment.sh", *arguments],
@@ -100,14 +100,14 @@ def test_pyenvs_folder_is_found_behind_a_failing_shim(bare):
     real = bare.home / ".pyenv" / "versions" / f"{version}.99" / "bin" / f"python{version}"
     put_program(real, f'exec "{sys._base_executable}" "$@"')
     result = bare(this_blender())
-    # The environment is made; its requirements here are empty, so that bpy is missing from it.
+    # The environment is made, but without bpy, because the requirements here are empty.
     assert "Made .venv" in result.stderr
     assert str(real) in result.stderr
     assert "No module named 'bpy'" in result.stderr
     assert result.returncode == 1
     folder = bare.project / f".venv-{this_blender()}"
     assert not (folder / "complete").exists()
-    # The second time only the import is tried again: what is missing may have come from outside.
+    # The second run only tries the import again, because bpy may have come from elsewhere.
     again = bare(this_blender())
     assert again.returncode == 1
     assert "Made .venv" not in again.stderr
@@ -146,7 +146,7 @@ def test_a_machine_without_home_and_with_cdpath(bare):
 
 
 def test_settings_of_pip_hold_but_for_user(bare):
-    """PIP_USER makes pip refuse a virtual environment; the others say where packages come from."""
+    """PIP_USER would make pip refuse a virtual environment. The others say where packages are."""
     requirements = bare.project / "tools" / f"requirements-{this_blender()}.txt"
     requirements.write_text("microbounce-of-nowhere==1\n")
     put_program(bare.commands / f"python{this_python()}", f'exec "{sys._base_executable}" "$@"')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every generated file, or the page beside it, names the command that makes it."""
+"""Each generated file, or the page beside it, names the command that makes it."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# Files by pattern, and the command that their first lines name.
+# What the first lines of the files have to name, by pattern.
 TEXTS = {
     "docs/benchmarks/README.md": "`make bench`",
     "docs/benchmarks/gains.md": "`make gains`",
@@ -21,7 +21,7 @@ JSONS = {
     "docs/benchmarks/results.json": "make bench",
     "addon/previews/manifest.json": "make previews",
 }
-# Files without room for a name lie beside a page that links to them.
+# These have no room for a command. The page beside them links to them.
 LINKED = (
     "docs/benchmarks/*.csv",
     "docs/benchmarks/*.svg",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""These tests want a real Blender with a window, which `make test-window` looks for."""
+"""These tests need a real Blender with a window. `make test-window` looks for one."""
 
 import os
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The zip in a real Blender's window: installed, drawn, used, rendered with EEVEE, taken out."""
+"""The zip in a real Blender's window: installed, drawn, used, rendered with EEVEE, removed."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from tools.window.session import run_session
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """What one session left; it takes about 25 seconds."""
+    """The result of one session, which takes about 25 seconds."""
     return run_session(tmp_path_factory.mktemp("session"))
 
 
@@ -20,7 +20,7 @@ def test_it_comes_to_its_end_without_an_error(session):
     assert "RuntimeWarning" not in session["printed"]
     assert "bpy.rna" not in session["printed"]
     lines = session["printed"].splitlines()
-    # Blender's own, when it quits.
+    # Blender's own message when it quits.
     own = ("Error: Not freed memory",)
     assert [line for line in lines if "Error" in line and not line.startswith(own)] == []
 
@@ -64,5 +64,5 @@ def test_conversion_is_taken_back_by_the_keyboard(session):
 def test_eevee_shows_the_material_like_cycles_without_osl(session):
     eevee, cycles = (np.array(session["centres"][name]) for name in ("EEVEE", "CYCLES"))
     assert (cycles > 0.05).all(), "black"
-    # They light a rough metal in different ways; within a per cent was measured.
+    # The two light a rough metal differently. The measured difference is within a per cent.
     assert np.abs(eevee / cycles - 1.0).max() < 0.1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings that were never measured, for tests: curves of known cost, noise and bias."""
+"""Findings for tests, made up of known cost, noise and bias."""
 
 import math
 from collections.abc import Mapping
@@ -26,7 +26,8 @@ def curve(
 ) -> Curve:
     """A curve whose squared error at n samples is bias^2 + noise^2 / n.
 
-    seconds -- processor time of a sample; `load` has a factor on it for each round
+    seconds -- processor time of a sample
+    load    -- a factor on it for each round
     """
     samples = tuple(1 << power for power in range(levels))
     squared = tuple(bias**2 + noise**2 / count for count in samples)
@@ -45,7 +46,10 @@ def scene_of(scene: Scene, curves: Mapping[str, Curve]) -> SceneFindings:
 def timed(
     scene: Scene, seconds: Mapping[str, float], load: np.ndarray | None = None
 ) -> SceneFindings:
-    """Findings without errors: seconds a sample by variant, (variants, rounds) factors of load."""
+    """Findings without errors, from seconds of a sample by variant.
+
+    load -- factors on them, (variants, rounds)
+    """
     curves = {}
     for number, (name, time) in enumerate(seconds.items()):
         found = curve(name, time, load=None if load is None else load[number])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The comparison of times finds a slowdown and lets the noise of a busy machine pass."""
+"""The comparison of times finds a slowdown and ignores the noise of a busy machine."""
 
 import json
 from dataclasses import replace
@@ -12,7 +12,7 @@ from tools.bench import __main__ as command
 from tools.bench import check
 from tools.bench.plan import PLANS
 
-# Seconds a sample of the quick plan's variants, of any size.
+# Made-up seconds of a sample for the quick plan's variants.
 SECONDS = {
     scene.name: {v.name: 0.02 + 0.005 * number for number, v in enumerate(scene.variants)}
     for scene in PLANS["quick"]
@@ -20,7 +20,7 @@ SECONDS = {
 
 
 def busy(seed: int, rounds: int = ROUNDS, spread: float = 0.25) -> dict:
-    """Findings on a machine whose other work adds `spread` of a time in the mean, at random."""
+    """Findings on a machine whose other work adds a random share of time, `spread` in the mean."""
     random = np.random.default_rng(seed)
     return {
         scene.name: timed(

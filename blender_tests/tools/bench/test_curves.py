@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Error over time, and what follows from it, on curves that are known."""
+"""Errors, times and their comparison, on known curves."""
 
 import math
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page, the tables and the plots say what the data say."""
+"""The page, the tables and the plots show the data."""
 
 import csv
 import io
@@ -104,7 +104,7 @@ def test_an_error_about_as_large_as_the_bias_is_not_called_out_of_reach():
 def test_the_tables_hold_every_curve():
     made = command.files(findings(), whole=True)
     rows = list(csv.DictReader(io.StringIO(made["curves.csv"])))
-    assert len(rows) == 6 * 11  # what has an error
+    assert len(rows) == 6 * 11  # of curves with an error
     assert float(rows[0]["squared_error"]) == pytest.approx(0.6**2 + 0.1**2)
     costs = list(csv.DictReader(io.StringIO(made["costs.csv"])))
     assert {row["rounds"] for row in costs} == {"7"}
@@ -144,7 +144,7 @@ def test_few_rounds_are_called_a_trial():
 def test_the_estimate_counts_samples_references_and_starts():
     scene = SHOWCASE.with_variants("Single", "Exact").shortened((4, 2), 100)
     trial = scene_of(scene, {n: curve(n, 0.01) for n in ("Single", "Exact")})
-    # two variants of six samples, two references of 100 by two cores; two rounds start twice
+    # two variants of six samples and two references of 100, on two cores; two rounds start twice
     samples = (2 * 6 * 0.01 + 200 * 0.01) / 2
     starts = 2 * (2 * 0.2 + (4 + 3) * 0.01)
     assert estimate.seconds([scene], {"showcase": trial}) == pytest.approx(samples + starts)

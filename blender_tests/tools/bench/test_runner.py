@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Children are watched: one that fails is started again, one that hangs is ended."""
+"""A child that fails starts again. A child that hangs is ended."""
 
 import subprocess
 import sys

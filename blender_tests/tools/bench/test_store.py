@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results are kept while they hold, and a run goes on where it was."""
+"""Valid results are kept, and a run continues after them."""
 
 from dataclasses import replace
 
@@ -60,7 +60,7 @@ def test_a_result_holds_for_what_it_was_made_from_alone(tmp_path, monkeypatch):
         path(replace(SCENE, reference="sun_white_ggx_0.5")),
     ]
     assert len({path(), *others}) == 1 + len(others)
-    # more rounds, or another variant beside it, change nothing of what is there
+    # more rounds or variants do not change the results that exist
     assert path(SCENE.repeated(3)) == path()
     assert path(SCENE.with_variants(SINGLE)) == path()
     before = path()
@@ -79,14 +79,14 @@ def test_results_of_other_sources_are_refused(tmp_path, monkeypatch):
 
 
 def test_a_scene_is_measured_and_goes_on_where_it_was(tmp_path, capfd):
-    """Two rounds of two variants; then with one result damaged, that one alone anew."""
+    """Measures two rounds of two variants, then only the one result that was damaged."""
     log = tmp_path / "log"
     child.measure_scene(SCENE, tmp_path, log)
     assert capfd.readouterr().err.count("STEP ") == 5
     found = findings.read_scene(SCENE, tmp_path)
     single = found.curves[SINGLE]
     assert single.samples == (1, 2)
-    assert 0.5 < single.squared[-1] ** 0.5 < 0.75  # all its bounces but one are missing
+    assert 0.5 < single.squared[-1] ** 0.5 < 0.75  # all bounces but one are missing
     assert single.bias.bias == pytest.approx(single.squared[-1] ** 0.5, rel=0.05)
     assert min(single.cpu) > 0.0
     assert len(found.curves[UNCORRELATED].cpu) == 2
@@ -96,7 +96,7 @@ def test_a_scene_is_measured_and_goes_on_where_it_was(tmp_path, capfd):
     before = {path: path.stat().st_mtime_ns for path in tmp_path.glob("*.npz")}
     child.measure_scene(SCENE, tmp_path, log)
     words = [line.partition(" ")[0] for line in capfd.readouterr().err.splitlines()]
-    told = [word for word in words if word in ("KEPT", "STEP")]  # Blender may have words of its own
+    told = [word for word in words if word in ("KEPT", "STEP")]  # Blender may print too
     assert told == ["KEPT"] * 4 + ["STEP"]
     changed = {path for path, time in before.items() if path.stat().st_mtime_ns != time}
     assert changed == {damaged}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The making of presets: colours, indices, matte albedos, and the command on small clones."""
+"""Presets: their colours, indices and matte albedos, and the command on small clones."""
 
 import json
 import sys
@@ -101,7 +101,7 @@ def run(clones, tmp_path, monkeypatch):
 
 def test_white_is_white_and_daylight_is_d65():
     xyz = (matching_functions(WAVELENGTHS) * daylight(WAVELENGTHS)).sum(axis=1)
-    # CIE 15 gives x = 0.31272 and y = 0.32903; the analytic functions are good to 1e-3
+    # CIE 15 has x = 0.31272 and y = 0.32903; the analytic functions are within 1e-3
     assert xyz[:2] / xyz.sum() == pytest.approx((0.31272, 0.32903), abs=1e-3)
     assert colour(np.ones(WAVELENGTHS.size)) == pytest.approx(np.ones(3), abs=1e-12)
     assert colour(np.full(WAVELENGTHS.size, 0.18)) == pytest.approx(np.full(3, 0.18), abs=1e-12)

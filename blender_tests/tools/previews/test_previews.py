@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The presets' pictures: there, current, small, well exposed; and the command that makes them."""
+"""The presets' pictures are complete, current, small and well exposed; the command works."""
 
 import dataclasses
 import json
@@ -49,7 +49,7 @@ def test_metals_differ_in_their_pictures_as_in_their_values():
 
 @pytest.fixture
 def few(tmp_path, monkeypatch):
-    """Two presets, their pictures in a folder of their own; returns the folder."""
+    """A folder with the pictures of two presets, which are all that the command sees."""
     chosen = [presets.preset("conductor/gold"), presets.preset("dielectric/water")]
     folder = tmp_path / "previews"
     folder.mkdir()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors and costs that the analysis goes by are still those of the shaders, measured anew."""
+"""The stored errors and costs of the analysis agree with new measurements."""
 
 import pytest
 
@@ -29,7 +29,7 @@ def test_errors_are_todays(kind: str, distribution: str, alpha: float, step: str
 @pytest.mark.nightly
 @pytest.mark.timing
 def test_costs_are_todays() -> None:
-    """Within a third of metal at alpha 0.25, of one short round."""
+    """One short round agrees within a third."""
     rows, background = costs.measure(("CONDUCTOR",), (0.25,), samples=32, rounds=1)
     assert [row["step"] for row in rows] == list(step_errors.STEPS)
     for row in rows:

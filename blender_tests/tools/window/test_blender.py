@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What opens a Blender's window, as far as it can be tried without one."""
+"""The opening of a Blender's window, as far as tests without a window can tell."""
 
 import struct
 import subprocess
@@ -16,7 +16,7 @@ from tools.window.session import ROOT
 
 @pytest.fixture
 def commands(tmp_path, monkeypatch):
-    """A PATH with nothing but what the returned function puts there."""
+    """A function that adds a command to PATH, which is empty otherwise."""
     monkeypatch.setenv("PATH", str(tmp_path))
     for name in ("BLENDER", "DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
@@ -83,7 +83,7 @@ def test_what_hangs_is_ended(commands, monkeypatch, tmp_path):
 
 
 def dump(path, pixels, depth=24):
-    """Write (height, width, 3) bytes, red first, as Xvfb keeps its screen."""
+    """Write (height, width, 3) bytes, red first, as a screen of Xvfb."""
     height, width, _ = pixels.shape
     header = [100, 7, 2, depth, width, height, *[0] * 5, 32, 4 * width, *[0] * 6, 0, *[0] * 5]
     rows = np.zeros((height, width, 4), np.uint8)

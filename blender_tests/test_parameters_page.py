@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables in docs/parameters.md against the one specification of the parameters."""
+"""The tables in docs/parameters.md agree with the specification of the parameters."""
 
 from pathlib import Path
 
@@ -7,13 +7,13 @@ import pytest
 
 from addon.core.kinds import KINDS
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "parameters.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "parameters.md"
 ALL = "all three"
 SURFACES_OWN = ("NORMAL", "TANGENT")
 
 
 def tables() -> dict[str, dict[str, list[str]]]:
-    """Rows by their first cell, of each table by the first cell of its head."""
+    """Each table by the first cell of its head, as rows by their first cell."""
     found: dict[str, dict[str, list[str]]] = {}
     rows: dict[str, list[str]] = {}
     for line in PAGE.read_text(encoding="utf-8").splitlines():
