@@ -195,11 +195,7 @@ def main() -> None:
     per_pass = arguments.samples // PASSES
     index = render_variants(compared, metals, folder, arguments.samples)
 
-    shown = []
-    for variant in compared:
-        exr = folder / f"{variant.key}.exr"
-        render.write_exr(exr, variant.radiance)
-        shown.append(render.write_display_png(exr.with_suffix(".png"), exr))
+    shown = [render.write_display(folder / f"{one.key}.exr", one.radiance) for one in compared]
     footer = (
         f"Blender {bpy.app.version_string}, {PASSES * per_pass} samples a pixel, "
         f"{os.cpu_count()} CPU cores, OSL on, no denoiser. "

@@ -156,8 +156,7 @@ def render_row(row: Row, folder: Path, steps: tqdm) -> list[np.ndarray]:
         variant.apply(shown)
         exr = folder / "picture.exr"
         passes, _ = render.render_passes(exr, row.samples, 0, folder / "blender.log")
-        render.write_exr(exr, render.combined(passes))
-        pictures.append(render.write_display_png(exr.with_suffix(".png"), exr))
+        pictures.append(render.write_display(exr, render.combined(passes)))
         steps.update()
     bpy.data.objects.remove(shape)
     return pictures

@@ -27,7 +27,7 @@ from addon.core.analysis.prediction import (
 from addon.core.analysis.proposal import time_of
 from addon.scene.share import shown_materials
 
-from . import comparison, mixed, render
+from . import comparison, mixed, pictures, render
 from .leave import leave
 from .timing import SampleTimes, time_samples
 
@@ -38,9 +38,6 @@ VARIANTS = ("Walk", "Fitted", ANALYSED)
 _ALL_BOUNCES = 16
 FOOTER = "A scene of mixed materials; errors are those of the converged pictures, as image L2"
 _BLOCK = 5  # pixels on a side
-# The camera moves aside by this from one seed to the next, less than a thousandth of a pixel,
-# because Cycles places some samples of two seeds alike.
-_NUDGE = 1e-5
 
 
 class AnalysedScene:
@@ -86,17 +83,7 @@ class AnalysedScene:
     def pictures(self, variant: str, samples: int, first_seed: int) -> np.ndarray:
         """Return two independent renders of a variant, ``(2, rows, columns, 3)``."""
         self.switch(variant)
-        camera = bpy.context.scene.camera
-        start = camera.location.x
-        found = []
-        with TemporaryDirectory() as folder:
-            for number in range(2):
-                camera.location.x = start + number * _NUDGE
-                path, log = Path(folder, "picture.exr"), Path(folder, "log")
-                passes, _ = render.render_passes(path, samples, first_seed + number, log)
-                found.append(render.combined(passes).astype(np.float64))
-        camera.location.x = start
-        return np.array(found)
+        return pictures.independent_pictures(samples, 2, first_seed)
 
 
 def difference(found: np.ndarray, wanted: np.ndarray) -> tuple[float, float]:
@@ -105,18 +92,14 @@ def difference(found: np.ndarray, wanted: np.ndarray) -> tuple[float, float]:
     found, wanted -- two independent renders each, ``(2, rows, columns, 3)``
     """
     found, wanted = _blocks(found), _blocks(wanted)
-    product = ((found[0] - wanted[0]) * (found[1] - wanted[1])).mean(axis=-1).ravel()
-    power = float((wanted[0] * wanted[1]).mean())
-    squared = product.mean() / power
-    spread = product.std(ddof=1) / np.sqrt(product.size) / power
-    error = np.sqrt(max(squared, 0.0))
-    return float(error), float(0.5 * spread / max(error, np.sqrt(spread)))
+    product = ((found[0] - wanted[0]) * (found[1] - wanted[1])).mean(axis=-1)
+    return pictures.converged_error(product, (wanted[0] * wanted[1]).mean())
 
 
-def _blocks(pictures: np.ndarray) -> np.ndarray:
-    count, rows, columns, channels = pictures.shape
+def _blocks(renders: np.ndarray) -> np.ndarray:
+    count, rows, columns, channels = renders.shape
     rows, columns = rows // _BLOCK, columns // _BLOCK
-    whole = pictures[:, : rows * _BLOCK, : columns * _BLOCK]
+    whole = renders[:, : rows * _BLOCK, : columns * _BLOCK]
     return whole.reshape(count, rows, _BLOCK, columns, _BLOCK, channels).mean(axis=(2, 4))
 
 
@@ -155,7 +138,9 @@ def write_picture(
     path: Path, pairs: dict[str, np.ndarray], errors: dict[str, tuple[float, float]]
 ) -> None:
     """Write all variants side by side as a PNG, Exact first."""
-    shown = [np.clip(pair.mean(axis=0), 0.0, 1.0) ** (1.0 / 2.2) for pair in pairs.values()]
+    with TemporaryDirectory() as folder:
+        exr = Path(folder, "picture.exr")
+        shown = [render.write_display(exr, pair.mean(axis=0)) for pair in pairs.values()]
     captions = [
         [f"off by {100 * errors[name][0]:.2f} ± {100 * errors[name][1]:.2f} %"]
         if name in errors

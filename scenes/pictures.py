@@ -58,8 +58,8 @@ def picture(samples: int, seed: int = 0) -> np.ndarray:
         return render.combined(passes).astype(np.float64)
 
 
-def independent_pictures(samples: int, count: int) -> np.ndarray:
-    """Renders of the open scene with seeds 0, 1, ..., (count, rows, columns, 3).
+def independent_pictures(samples: int, count: int, first_seed: int = 0) -> np.ndarray:
+    """Renders of the open scene with seeds from `first_seed` on, (count, rows, columns, 3).
 
     Cycles puts some samples of two seeds at the same place in a pixel, where the shader draws the
     same numbers. The two then share 5 to 10 % of the variance. So the camera moves aside by NUDGE
@@ -69,11 +69,11 @@ def independent_pictures(samples: int, count: int) -> np.ndarray:
     camera = scene.camera
     start = camera.location.x
     pictures = []
-    for seed in range(count):
+    for number in range(count):
         # Keeps compiled shaders until the last render. Later changes would not reach a kept scene.
-        scene.render.use_persistent_data = seed < count - 1
-        camera.location.x = start + seed * NUDGE
-        pictures.append(picture(samples, seed))
+        scene.render.use_persistent_data = number < count - 1
+        camera.location.x = start + number * NUDGE
+        pictures.append(picture(samples, first_seed + number))
     camera.location.x = start
     return np.array(pictures)
 
@@ -145,7 +145,14 @@ def unbiased_l2_error(
     channels of a pixel count as one sample.
     """
     product = ((a - wanted) * (b - wanted))[mask].mean(axis=-1)
-    power = np.mean(wanted[mask] ** 2)
+    return converged_error(product, np.mean(wanted[mask] ** 2))
+
+
+def converged_error(product: np.ndarray, power: float) -> tuple[float, float]:
+    """An error and its standard error from products of independent differences, one per pixel.
+
+    power -- mean square of the reference
+    """
     squared = product.mean() / power
     spread = product.std(ddof=1) / np.sqrt(product.size) / power  # of `squared`
     error = np.sqrt(max(squared, 0.0))

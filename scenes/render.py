@@ -65,13 +65,6 @@ def combined(passes: dict) -> np.ndarray:
     return np.stack([passes[f"Combined.{channel}"] for channel in "RGB"], axis=-1)
 
 
-def write_exr(path: Path, radiance: np.ndarray) -> None:
-    """Write linear radiance (height, width, 3) as a half-float EXR."""
-    spec = oiio.ImageSpec(radiance.shape[1], radiance.shape[0], 3, oiio.HALF)
-    spec.attribute("compression", "zip")
-    write_image(path, radiance, spec)
-
-
 def write_image(path: Path, pixels: np.ndarray, spec: oiio.ImageSpec) -> None:
     """Write pixels (height, width, channels) as in `spec`. Raises RuntimeError on failure."""
     target = oiio.ImageBuf(spec)
@@ -80,8 +73,15 @@ def write_image(path: Path, pixels: np.ndarray, spec: oiio.ImageSpec) -> None:
         raise RuntimeError(f"{path} cannot be written: {target.geterror()}")
 
 
-def write_display_png(path: Path, exr: Path) -> np.ndarray:
-    """Write an EXR as PNG through the scene's view transform; return float32 (height, width, 3)."""
+def write_display(exr: Path, radiance: np.ndarray) -> np.ndarray:
+    """Write linear radiance (height, width, 3) as half-float EXR and as PNG beside it.
+
+    The PNG goes through the scene's view transform. Returns its pixels, float32 (height, width, 3).
+    """
+    spec = oiio.ImageSpec(radiance.shape[1], radiance.shape[0], 3, oiio.HALF)
+    spec.attribute("compression", "zip")
+    write_image(exr, radiance, spec)
+    png = str(exr.with_suffix(".png"))
     scene = bpy.context.scene
     settings = scene.render.image_settings
     if hasattr(settings, "media_type"):
@@ -89,10 +89,10 @@ def write_display_png(path: Path, exr: Path) -> np.ndarray:
     settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "8"
     image = bpy.data.images.load(str(exr), check_existing=False)
     try:
-        image.save_render(str(path), scene=scene)
+        image.save_render(png, scene=scene)
     finally:
         bpy.data.images.remove(image)
-    return oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT)[..., :3]
+    return oiio.ImageBuf(png).get_pixels(oiio.FLOAT)[..., :3]
 
 
 @contextmanager

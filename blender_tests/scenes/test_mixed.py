@@ -19,7 +19,7 @@ TOLERANCE = 0.03
 
 @pytest.mark.nightly
 def test_the_measured_error_is_within_the_tolerance(report) -> None:
-    """So is the predicted error. The measured one is converged, against Exact, of two renders each."""
+    """The converged picture, of two renders, against two of Exact. So is the predicted error."""
     mixed.build(COUNT, SIZE)
     found = mixed_demo.AnalysedScene(TOLERANCE)
     predicted = found.predicted(mixed_demo.ANALYSED)
