@@ -50,14 +50,17 @@ class Run(Protocol[Result]):
 
 
 def wait_for(run: Run[Result], tell: Callable[[Progress], None] = lambda progress: None) -> Result:
-    """Wait until `run` has ended, tell each new state, and return the result."""
+    """Wait until `run` has ended, tell each new state, the last one too, and return the result."""
     told = None
-    while run.advance():
+    going_on = True
+    while going_on:
+        going_on = run.advance()
         progress = run.progress()
         if progress != told:
             tell(progress)
             told = progress
-        time.sleep(_POLL_SECONDS)
+        if going_on:
+            time.sleep(_POLL_SECONDS)
     return run.result()
 
 

@@ -19,8 +19,6 @@ from ..scene.exact import enabled_lamps
 from .reference_cache import cache_file
 from .renderer import placed_nodes
 
-OUTPUT = "//microbounce_cost"
-
 
 class CostError(RunError):
     """The measurement cannot be made or failed; the message says why and what to do."""

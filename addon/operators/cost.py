@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.cost.options import OPTIONS, Option, options_of
+from ..core.cost.plan import PlanError
 from ..core.run import RunError
 from .following import FollowsRun
 from .polled import Polled
@@ -13,7 +15,6 @@ from .redraw import redraw_panels
 
 # Imported when it is used: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
-    from ..core.cost.plan import Options
     from ..cost.run import CostRun
 
 # What the last measurement of this session found, as Report.as_dict() has it; None before it.
@@ -25,108 +26,29 @@ def last_report() -> dict[str, object] | None:
     return _last
 
 
+def _property(option: Option) -> object:
+    """Return the property of an option."""
+    shown = {"name": option.label, "description": option.help}
+    if option.choices:
+        items = [(name, name.title(), tooltip) for name, tooltip in option.choices]
+        return bpy.props.EnumProperty(**shown, items=items, default=option.default)
+    shown["default"] = option.default
+    if isinstance(option.default, bool):
+        return bpy.props.BoolProperty(**shown)
+    if isinstance(option.default, str):
+        if option.name != "output":
+            return bpy.props.StringProperty(**shown)
+        path = {"subtype": "DIR_PATH", "options": {"PATH_SUPPORTS_BLEND_RELATIVE"}}
+        return bpy.props.StringProperty(**shown, **path)
+    number = bpy.props.IntProperty if isinstance(option.default, int) else bpy.props.FloatProperty
+    low, high = option.limits
+    return number(**shown, min=low, max=high, subtype="PERCENTAGE" if option.percent else "NONE")
+
+
 class CostOptions:
-    """The options, for the operator and for the panel that hands them to it."""
+    """The options as properties, for the operator and for the panel that hands them to it."""
 
-    samples: bpy.props.IntProperty(
-        name="Samples",
-        description="Samples of each picture; 0 takes the scene's. Times and noise at other "
-        "numbers follow from these",
-        default=64,
-        min=0,
-        max=65536,
-    )
-    percentage: bpy.props.IntProperty(
-        name="Size",
-        description="Width and height in percent of the scene's resolution; 0 takes the scene's "
-        "percentage",
-        default=50,
-        min=0,
-        max=100,
-        subtype="PERCENTAGE",
-    )
-    rounds: bpy.props.IntProperty(
-        name="Rounds",
-        description="How often each variant is rendered and timed, each time with other noise",
-        default=3,
-        min=2,
-        max=32,
-    )
-    error: bpy.props.FloatProperty(
-        name="Target Error",
-        description="The times are those to this error, relative to the reference, in percent",
-        default=2.0,
-        min=0.01,
-        max=99.0,
-        subtype="PERCENTAGE",
-    )
-    steps: bpy.props.StringProperty(
-        name="Qualities",
-        description="Qualities to compare, with commas between",
-        default="Single, Fitted, Walk, Exact",
-    )
-    bounces: bpy.props.StringProperty(
-        name="Bounces",
-        description="Limits of the bounces on the microsurface to compare, in Walk, with commas "
-        "between; empty for none",
-        default="1, 2, 4, 8, 16",
-    )
-    walks: bpy.props.StringProperty(
-        name="Walks",
-        description="Numbers of walks to compare, in Walk, with commas between; empty for none",
-    )
-    kernels: bpy.props.StringProperty(
-        name="Kernels",
-        description="Radii of the lobe to compare, in Walk, with commas between; empty for none",
-    )
-    baselines: bpy.props.BoolProperty(
-        name="Cycles' Own",
-        description="Compare Cycles' own materials of the same values too, with Open Shading "
-        "Language on and off",
-        default=True,
-    )
-    reference: bpy.props.EnumProperty(
-        name="Reference",
-        description="What the pictures are compared with",
-        items=[
-            ("WALK", "Walk", "Many narrow walks: sees all lights"),
-            ("EXACT", "Exact", "No bias, but noise; not where lights have no size"),
-        ],
-    )
-    reference_samples: bpy.props.IntProperty(
-        name="Reference Samples",
-        description="Samples of the reference; 0 takes 16 times those of a picture",
-        default=0,
-        min=0,
-    )
-    output: bpy.props.StringProperty(
-        name="Output",
-        description="Folder for the page, the tables and the plot; // is the file's own",
-        default="//microbounce_cost",
-        subtype="DIR_PATH",
-        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
-    )
-
-    def asked(self) -> "Options":
-        """Return what is asked for; raises PlanError for what makes no sense.
-
-        It is not called `options`: every operator has something else by that name.
-        """
-        from ..core.cost.plan import Options, parse_numbers, parse_steps
-
-        return Options(
-            samples=self.samples,
-            percentage=self.percentage,
-            steps=parse_steps(self.steps),
-            bounces=parse_numbers(self.bounces),
-            walks=parse_numbers(self.walks),
-            kernels=parse_numbers(self.kernels, float),
-            baselines=self.baselines,
-            rounds=self.rounds,
-            reference=self.reference,
-            reference_samples=self.reference_samples,
-            error=self.error / 100.0,
-        )
+    __annotations__ = {option.name: _property(option) for option in OPTIONS}
 
 
 class MICROBOUNCE_PG_cost(CostOptions, bpy.types.PropertyGroup):
@@ -166,11 +88,10 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
 
     def start(self, context: bpy.types.Context) -> "CostRun":
         """Begin to measure what is asked for."""
-        from ..core.cost.plan import PlanError
         from ..cost.run import CostRun
 
         try:
-            options = self.asked()
+            options = options_of({option.name: getattr(self, option.name) for option in OPTIONS})
         except PlanError as error:
             raise RunError(str(error)) from error
         return CostRun(context.scene, context.view_layer, options, self.output)

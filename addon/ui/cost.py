@@ -5,9 +5,9 @@ from pathlib import Path
 
 import bpy
 
+from ..core.cost.options import OPTIONS
 from ..core.run import Progress
 from ..operators.cost import (
-    CostOptions,
     MICROBOUNCE_OT_clear_cost_cache,
     MICROBOUNCE_OT_measure_cost,
     MICROBOUNCE_OT_show_cost_plot,
@@ -59,15 +59,15 @@ class MICROBOUNCE_PT_cost_options(bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         options = context.window_manager.microbounce_cost
-        for name in CostOptions.__annotations__:
-            layout.prop(options, name)
+        for option in OPTIONS:
+            layout.prop(options, option.name)
         layout.operator(MICROBOUNCE_OT_clear_cost_cache.bl_idname)
 
 
-def _draw_button(layout: bpy.types.UILayout, options: CostOptions) -> None:
+def _draw_button(layout: bpy.types.UILayout, options: bpy.types.PropertyGroup) -> None:
     button = layout.operator(MICROBOUNCE_OT_measure_cost.bl_idname, icon="TIME")
-    for name in CostOptions.__annotations__:
-        setattr(button, name, getattr(options, name))
+    for option in OPTIONS:
+        setattr(button, option.name, getattr(options, option.name))
 
 
 def _draw_progress(layout: bpy.types.UILayout, progress: Progress) -> None:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which variants of a scene are rendered to measure what accuracy costs, and how often."""
 
-from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 
 from ..parameter import Parameter
@@ -79,15 +78,15 @@ class Options:
     region: tuple[float, float, float, float] | None = None
 
     def __post_init__(self) -> None:
-        _check(self.samples == 0 or self.samples >= 2, "samples", self.samples, "2 or more")
-        _check(0 <= self.percentage <= 100, "percentage", self.percentage, "1 to 100")
-        _check(self.rounds >= 2, "rounds", self.rounds, "2 or more: one picture shows no noise")
+        _need(self.samples == 0 or self.samples >= 2, "samples", self.samples, "2 or more")
+        _need(0 <= self.percentage <= 100, "percentage", self.percentage, "1 to 100")
+        _need(self.rounds >= 2, "rounds", self.rounds, "2 or more: one picture shows no noise")
         enough = self.reference_samples == 0 or self.reference_samples >= 4
-        _check(enough, "reference samples", self.reference_samples, "4 or more")
-        _check(0.0 < self.error < 1.0, "error", self.error, "a part above 0 and below 1")
-        _check(self.reference in REFERENCES, "reference", self.reference, "WALK or EXACT")
+        _need(enough, "reference samples", self.reference_samples, "4 or more")
+        _need(0.0 < self.error < 1.0, "error", self.error, "a part above 0 and below 1")
+        _need(self.reference in REFERENCES, "reference", self.reference, "WALK or EXACT")
         for step in self.steps:
-            _check(step in STEPS, "step", step, ", ".join(STEPS))
+            _need(step in STEPS, "step", step, ", ".join(STEPS))
         for name, values in (
             ("MaxBounces", self.bounces),
             ("Walks", self.walks),
@@ -98,7 +97,7 @@ class Options:
         if self.region is not None:
             x0, y0, x1, y1 = self.region
             inside = 0.0 <= x0 < x1 <= 1.0 and 0.0 <= y0 < y1 <= 1.0
-            _check(inside, "region", self.region, "0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1")
+            _need(inside, "region", self.region, "0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1")
         if not planned_variants(self):
             raise PlanError("Nothing is to be rendered: choose a step or Cycles' own closures")
 
@@ -151,47 +150,6 @@ def overridden(options: Options) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for variant in shown for name in variant.settings))
 
 
-def parse_numbers(text: str, number: type = int) -> tuple:
-    """Return the numbers in a text such as "1, 2, 4"; "" and "none" give none.
-
-    Raises PlanError for what is no number.
-    """
-    words = [] if text.strip().lower() == "none" else text.replace(",", " ").split()
-    return tuple(_parsed(word, number) for word in words)
-
-
-def parse_steps(text: str) -> tuple[str, ...]:
-    """Return the steps named in a text such as "fitted, walk", in the ladder's order.
-
-    Raises PlanError for a name that there is not.
-    """
-    words = [] if text.strip().lower() == "none" else text.replace(",", " ").split()
-    named = {word.title() for word in words}
-    for word in named:
-        _check(word in STEPS, "step", word, ", ".join(STEPS))
-    return tuple(step for step in STEPS if step in named)
-
-
-def parse_region(text: str) -> tuple[float, float, float, float]:
-    """Return the four parts in a text such as "0.2,0.2,0.8,0.8". Raises PlanError."""
-    parts = parse_numbers(text, float)
-    _check(len(parts) == 4, "region", text, "four numbers x0,y0,x1,y1 from 0 to 1")
-    return parts
-
-
-def listed(values: Iterable[object]) -> str:
-    """Return values as parse_numbers() and parse_steps() read them."""
-    return ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
-
-
-def _parsed(word: str, number: type) -> float:
-    try:
-        return number(word)
-    except ValueError:
-        noun = "whole numbers" if number is int else "numbers"
-        raise PlanError(f"{word!r} is no number: give {noun} such as 1, 2, 4") from None
-
-
 def _checked(parameter: Parameter, value: object) -> None:
     try:
         parameter.checked(value)
@@ -199,6 +157,6 @@ def _checked(parameter: Parameter, value: object) -> None:
         raise PlanError(str(error)) from None
 
 
-def _check(right: bool, name: str, value: object, remedy: str) -> None:
+def _need(right: bool, name: str, value: object, remedy: str) -> None:
     if not right:
         raise PlanError(f"{name.capitalize()} cannot be {value}: give {remedy}")

@@ -5,16 +5,8 @@ import json
 
 import pytest
 
-from addon.core.cost.plan import (
-    STEPS,
-    Options,
-    PlanError,
-    listed,
-    parse_numbers,
-    parse_region,
-    parse_steps,
-    planned_variants,
-)
+from addon.core.cost.options import listed, parse_numbers, parse_region, parse_steps
+from addon.core.cost.plan import STEPS, Options, PlanError, planned_variants
 
 
 def test_what_is_rendered_unless_asked_otherwise():

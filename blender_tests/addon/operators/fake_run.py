@@ -14,8 +14,9 @@ class FakeRun:
 
     def advance(self) -> bool:
         """Go on by a step."""
-        self._done += 1
-        return self._done <= self._steps
+        going_on = self._done < self._steps
+        self._done += going_on
+        return going_on
 
     def progress(self) -> Progress:
         """Return the steps done."""

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator runs through in scripts; the panel shows how far it is and what came of it."""
 
+import argparse
 from types import SimpleNamespace
 
 import bpy
 import pytest
 
+from addon.command.cost import add_arguments
+from addon.core.cost.options import OPTIONS, options_of
 from addon.core.cost.plan import Options
 from addon.core.cost.results import TOO_SHORT
 from addon.core.run import Progress
@@ -124,6 +127,25 @@ def _drawn(panel):
     )
     panel.draw(SimpleNamespace(layout=layout), context)
     return layout
+
+
+def test_properties_and_arguments_are_the_options():
+    """The operator, the panel's properties and the subcommand offer the same, by default too."""
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    given = vars(parser.parse_args([]))
+    given |= {"output": given["folder"], "reference": given["reference"].upper()}
+    assert options_of(given) == Options()
+    properties = bpy.ops.microbounce.measure_cost.get_rna_type().properties
+    panel = bpy.context.window_manager.microbounce_cost.bl_rna.properties
+    for option in OPTIONS:
+        assert given[option.name] == ("none" if option.default == "" else option.default)
+        for found in (properties[option.name], panel[option.name]):
+            assert (found.name, found.description) == (option.label, option.help)
+            assert found.default == pytest.approx(option.default)
+            if found.type in ("INT", "FLOAT"):
+                assert (found.hard_min, found.hard_max) == pytest.approx(option.limits)
+                assert found.subtype == ("PERCENTAGE" if option.percent else "NONE")
 
 
 def test_the_panel_hands_its_options_to_the_button():
