@@ -79,8 +79,8 @@ _SHADERS = [
     Mutant(
         "refraction's facets count twice",
         "osl/include/refraction.h",
-        "facet.tint * (rest / facets)",
-        "facet.tint * (2 * rest / facets)",
+        "material.tint * (rest / facets)",
+        "material.tint * (2 * rest / facets)",
         _PICTURES,
     ),
     Mutant(
@@ -123,7 +123,7 @@ _SHADERS = [
         "osl/include/fitted.h",
         "min(s2 * s2 * s, 1)",
         "min(s2 * s2, 1)",
-        _PICTURES,
+        _OSL,
     ),
     Mutant(
         "a series of bounces without its first weight",
@@ -134,7 +134,7 @@ _SHADERS = [
     ),
     Mutant(
         "Exact smooths its exits",
-        "osl/include/closures.h",
+        "osl/include/walks.h",
         "if (accuracy.quality == QUALITY_EXACT)",
         "if (accuracy.quality > QUALITY_EXACT)",
         _PICTURES,
@@ -175,10 +175,38 @@ _SHADERS = [
         ("blender_tests/stability", "blender_tests/osl", "blender_tests/render"),
     ),
     Mutant(
+        "Fitted is Walk",
+        "osl/include/fitted.h",
+        "accuracy.quality == QUALITY_FITTED",
+        "accuracy.quality == QUALITY_WALK",
+        _PICTURES,
+    ),
+    Mutant(
+        "glass seen from behind keeps the index of its front",
+        "osl/microbounce_dielectric.osl",
+        "backfacing() ? 1 / index : index",
+        "index",
+        _PICTURES,
+    ),
+    Mutant(
+        "roughness is alpha",
+        "osl/include/inputs.h",
+        "  alpha *= alpha;\n",
+        "",
+        _PICTURES,
+    ),
+    Mutant(
+        "a number of a table",
+        "osl/tables/conductor_lobes.h",
+        ".01144,.02157,.02974",
+        ".01144,.03157,.02974",
+        _OSL,
+    ),
+    Mutant(
         "GGX and Beckmann change places",
         "osl/include/inputs.h",
-        "surface.beckmann = distribution == 1;",
-        "surface.beckmann = distribution != 1;",
+        "surface.beckmann = distribution == BECKMANN;",
+        "surface.beckmann = distribution == GGX;",
         _PICTURES,
     ),
 ]
@@ -229,8 +257,8 @@ _ADDON = [
     Mutant(
         "a group's stamp forgets the shader",
         "addon/material/group.py",
-        "hashlib.sha256(source",
-        "hashlib.sha256(source[:0]",
+        "hashlib.sha256(made_from.encode())",
+        "hashlib.sha256(kind.identifier.encode())",
         _addon("material"),
     ),
     Mutant(

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The conductor's reflectance (fresnel.h) against the oracle."""
+"""Reflectances (fresnel.h) and their means (fitted.h) against the oracle."""
 
 import numpy as np
 
-from osl.oracle.fresnel import F82Tint, IndexOfRefraction
+from osl.oracle.fresnel import F82Tint, IndexOfRefraction, dielectric_reflectance
 
 from .probe import evaluate
 from .samples import relative_error
@@ -70,3 +70,34 @@ def test_nothing_reflects_where_the_index_is_one() -> None:
         "fresnel.h", "result = vector(n_k_fresnel(color(1), color(0), cosine));", cosine=cosine
     )
     assert np.max(np.abs(found)) < 1e-6
+
+
+def test_dielectric() -> None:
+    """Indices from both sides, nearly 1 and far from it, against Fresnel's formulas."""
+    rng = np.random.default_rng(9)
+    eta = 10.0 ** rng.uniform(-1.0, 1.0, 4000)
+    eta[:1000] = 1.0 + rng.uniform(-1e-3, 1e-3, 1000)
+    eta = eta.astype(np.float32)
+    cosine = cosines(len(eta), rng)
+    found = evaluate(
+        "fresnel.h", "result = vector(dielectric_fresnel(eta, cosine));", eta=eta, cosine=cosine
+    )
+    wanted = dielectric_reflectance(cosine.astype(np.float64), eta.astype(np.float64))
+    # Next to the critical angle it goes with the root of the angle: rounding of 6e-8 shows as 2e-4.
+    assert relative_error(found[:, 0], wanted, FLOOR) < 1e-3
+
+
+def test_mean_fresnel_of_schlicks_curve_is_its_value() -> None:
+    """That is how the tables' cosines are defined (osl/tables/conductor.py)."""
+    rng = np.random.default_rng(10)
+    f0 = rng.random((500, 3)).astype(np.float32)
+    cosine = rng.uniform(0.2, 1.0, 500).astype(np.float32)
+    found = evaluate(
+        "fitted.h",
+        "Conductor metal; metal.physical = 0; metal.first = color(f0); metal.second = color(1);"
+        "result = vector(mean_fresnel(fresnel_range(metal), cosine));",
+        f0=f0,
+        cosine=cosine,
+    )
+    wanted = f0 + (1.0 - f0) * (1.0 - cosine[:, None]) ** 5
+    assert np.max(np.abs(found - wanted)) < 1e-4
