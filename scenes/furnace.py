@@ -2,7 +2,7 @@
 """Measures how much light lossless surfaces return, in furnace_conductor.blend."""
 
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -10,22 +10,16 @@ from tqdm import tqdm
 
 from . import render, variants
 
+if TYPE_CHECKING:
+    from .demo import Variant
+
 SCENE = Path(__file__).resolve().parent / "furnace_conductor.blend"
 SIZE = 48
 SAMPLES = 32
 SURFACE = ("Roughness", "Anisotropy", "Rotation", "Distribution", "MaxBounces", "Tolerance")
 
 
-class Switch(Protocol):
-    """Switches the materials of an open scene to one of the compared variants."""
-
-    key: str
-
-    def apply(self, metals: list[variants.Material]) -> None:
-        """Switch `metals`."""
-
-
-def energies(metals: list[variants.Material], compared: list[Switch], log: Path) -> dict:
+def energies(metals: list[variants.Material], compared: "list[Variant]", log: Path) -> dict:
     """Return, by variant key, the mean radiance of a white sphere with each metal's surface.
 
     The mean is over the sphere's picture, so angles of view count by their projected area. Opens

@@ -4,6 +4,7 @@
 import math
 from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -203,17 +204,8 @@ def _sweep(
             continue
         curves = [found.curves[name] for name in names]
         base = curves[0].a_sample if relative else 1.0
-        heights = [curve.a_sample / base for curve in curves]
-        spread = [
-            [
-                height - curve.spread[0] / base
-                for height, curve in zip(heights, curves, strict=True)
-            ],
-            [
-                curve.spread[1] / base - height
-                for height, curve in zip(heights, curves, strict=True)
-            ],
-        ]
+        heights = np.array([curve.a_sample for curve in curves]) / base
+        spread = np.abs(np.transpose([curve.spread for curve in curves]) / base - heights)
         where = found.scene.title.partition(", ")[2]
         axes.errorbar(values, heights, spread, fmt=f"o{line}", color=COLOURS[quality], ms=2.5,
                       lw=1.0, elinewidth=0.6, label=f"{quality}, {where}")  # fmt: skip

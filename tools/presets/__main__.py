@@ -150,13 +150,14 @@ def differences(made: dict[str, str], folder: Path) -> list[str]:
         path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
         for path in folder.glob("*/*.toml")
     }
-    lines = [f"{path} is missing" for path in sorted(made.keys() - there.keys())]
-    lines += [f"{path} is not of the tables" for path in sorted(there.keys() - made.keys())]
-    lines += [
-        f"{path} differs"
-        for path in sorted(made.keys() & there.keys())
-        if made[path] != there[path]
-    ]
+    lines = []
+    for path in sorted(made.keys() | there.keys()):
+        if path not in there:
+            lines.append(f"{path} is missing")
+        elif path not in made:
+            lines.append(f"{path} is not in the tables")
+        elif made[path] != there[path]:
+            lines.append(f"{path} differs")
     return lines
 
 

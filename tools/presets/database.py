@@ -171,39 +171,26 @@ def _table(path: Path, at: np.ndarray, values: np.ndarray) -> Callable:
 # The dispersion formulas, numbered as in the database's documentation. x is in um.
 
 
-def _sellmeier(x: np.ndarray, c: list[float]) -> np.ndarray:
-    terms = (a * x**2 / (x**2 - b**2) for a, b in _pairs(c[1:]))
+def _sellmeier(x: np.ndarray, c: list[float], power: int) -> np.ndarray:
+    terms = (a * x**2 / (x**2 - b**power) for a, b in zip(c[1::2], c[2::2], strict=True))
     return np.sqrt(1.0 + c[0] + sum(terms))
-
-
-def _sellmeier_2(x: np.ndarray, c: list[float]) -> np.ndarray:
-    terms = (a * x**2 / (x**2 - b) for a, b in _pairs(c[1:]))
-    return np.sqrt(1.0 + c[0] + sum(terms))
-
-
-def _polynomial(x: np.ndarray, c: list[float]) -> np.ndarray:
-    return np.sqrt(c[0] + sum(a * x**b for a, b in _pairs(c[1:])))
 
 
 def _general(x: np.ndarray, c: list[float]) -> np.ndarray:
-    square = c[0] + sum(a * x**b for a, b in _pairs(c[9:]))
+    square = c[0] + _polynomial(x, c[9:])
     for a, power, b, exponent in (term for term in (c[1:5], c[5:9]) if any(term)):
         square = square + a * x**power / (x**2 - b**exponent)
     return np.sqrt(square)
 
 
-def _cauchy(x: np.ndarray, c: list[float]) -> np.ndarray:
-    return c[0] + sum(a * x**b for a, b in _pairs(c[1:]))
+def _polynomial(x: np.ndarray, c: list[float]) -> np.ndarray:
+    return sum(a * x**b for a, b in zip(c[::2], c[1::2], strict=True))
 
 
 _FORMULAS = {
-    "formula 1": _sellmeier,
-    "formula 2": _sellmeier_2,
-    "formula 3": _polynomial,
+    "formula 1": lambda x, c: _sellmeier(x, c, 2),
+    "formula 2": lambda x, c: _sellmeier(x, c, 1),
+    "formula 3": lambda x, c: np.sqrt(c[0] + _polynomial(x, c[1:])),
     "formula 4": _general,
-    "formula 5": _cauchy,
+    "formula 5": lambda x, c: c[0] + _polynomial(x, c[1:]),
 }
-
-
-def _pairs(numbers: list[float]) -> list[tuple[float, float]]:
-    return list(zip(numbers[::2], numbers[1::2], strict=True))
