@@ -29,7 +29,7 @@ from .optics import metal, transmittance
 
 FOLDER = Path(__file__).resolve().parents[2] / "addon" / "presets"
 
-D_LINE = 587.56  # nm; glass makers give the index n_d at it
+D_LINE = 587.56  # nm, at which glass makers measure the index n_d
 
 _HEADER = """\
 # SPDX-License-Identifier: GPL-3.0-or-later   (data: CC0, see source)
@@ -37,11 +37,9 @@ _HEADER = """\
 """
 _LICENCE = "CC0-1.0"
 _PHYSICALLY_BASED = "https://api.physicallybased.info/v2/materials"
-_METAL_NOTE = (
-    f"n and k at {', '.join(map(str, CHANNELS))} nm; reflectance before it was limited to 0..1"
-)
-_GLASS_NOTE = "colour of light that went in and out"
-_MATTE_NOTE = "of the whole surface; Color is that of its facets"
+_METAL_NOTE = f"n and k at {', '.join(map(str, CHANNELS))} nm; reflectance before clipping to 0..1"
+_GLASS_NOTE = "colour of light that passed in and out"
+_MATTE_NOTE = "albedo of the whole surface; Color is that of its facets"
 _KINDS = {"C": "CONDUCTOR", "D": "DIELECTRIC", "M": "DIFFUSE"}
 
 Fields = dict[str, object]
@@ -174,7 +172,9 @@ def write(made: dict[str, str], folder: Path) -> None:
 
 def main() -> int:
     """Write or check the files; return the exit code."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.presets", description=__doc__.splitlines()[0]
+    )
     parser.add_argument("refractiveindex", type=Path, help="clone of refractiveindex.info-database")
     parser.add_argument("physicallybased", type=Path, help="clone of physically-based-api")
     parser.add_argument("--check", action="store_true", help="only say what would change")

@@ -112,7 +112,9 @@ def complaints() -> list[str]:
 
 def main(arguments: list[str] | None = None) -> int:
     """Do what the command line asks for; return the exit code."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.previews", description=__doc__.splitlines()[0]
+    )
     task = parser.add_mutually_exclusive_group()
     task.add_argument("--check", action="store_true", help="render nothing, name what is wrong")
     task.add_argument("--all", action="store_true", help="render all pictures anew")

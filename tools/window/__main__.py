@@ -26,7 +26,9 @@ _PICTURES = {
 
 def main() -> int:
     """Do what the command line says; return the exit code."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.window", description=__doc__.splitlines()[0]
+    )
     parser.add_argument("task", choices=("test", "pictures"))
     task = parser.parse_args().task
     try:
