@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 import bpy
 import numpy as np
 
-from addon.analysis.analyse import Report, analyse
+from addon.analysis.analyse import Analysis, analyse
 from addon.analysis.surfaces import apply_choice, found_nodes, read_surface
 from addon.core.analysis.picture_error import DEFAULT_TOLERANCE, percent, picture_error
 from addon.core.analysis.prediction import (
@@ -44,7 +44,7 @@ class AnalysedScene:
     """The open scene's materials, which can switch to a quality or to the proposals."""
 
     def __init__(self, tolerance: float) -> None:
-        self.report: Report = analyse(bpy.context, tolerance)
+        self.report: Analysis = analyse(bpy.context, tolerance)
         self.found = found_nodes(shown_materials(bpy.context))
         self._proposals = {row.key: row.proposal for row in self.report.rows}
 

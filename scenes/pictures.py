@@ -140,8 +140,8 @@ def unbiased_l2_error(
 ) -> tuple[float, float]:
     """`l2_error` of a converged picture, and its standard error, from independent renders `a`, `b`.
 
-    The mean of (a - wanted) (b - wanted) is the squared bias, because the noise of the two renders
-    is independent. If noise outweighs the bias, the sum may be negative and the error is 0. The
+    The mean of (a - wanted) (b - wanted) is the squared bias, because the renders' noise is
+    independent. If noise outweighs the bias, the sum may be negative and the error is 0. The
     channels of a pixel count as one sample.
     """
     product = ((a - wanted) * (b - wanted))[mask].mean(axis=-1)

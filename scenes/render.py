@@ -19,8 +19,8 @@ _RENAMED = {"Object Index.X": "IndexOB.X"}
 def render_passes(path: Path, samples: int, seed: int, log: Path) -> tuple[dict, float]:
     """Render the scene into a multilayer float EXR at `path`.
 
-    Returns the passes by channel name, each float32 (height, width) from the top row down, and the
-    seconds that the render took. Names have no layer, such as "Combined.R". Blender 5's
+    Returns the passes by channel name, and the seconds that the render took. A pass is float32
+    (height, width) from the top row down. Names have no layer, such as "Combined.R". Blender 5's
     "Object Index.X" is "IndexOB.X" as in Blender 4.
     Blender's own messages are appended to `log`. Raises RuntimeError if no picture came out.
     """

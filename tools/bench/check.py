@@ -6,8 +6,8 @@ the machine takes cache and shares cores, so it can only add to a processor time
 therefore counts with the least of its rounds: load changes that far less than the median.
 
 The margin is three times the measured error of both ratios. The error of a least time is about its
-distance from the second least. (The two are equal in the mean for times that fall off exponentially
-above a floor.) The margin is at least SMALLEST_MARGIN, because processors differ. It is at most
+distance from the second least: the two are equal in the mean if times fall off exponentially above
+a floor. The margin is at least SMALLEST_MARGIN, because processors differ. It is at most
 LARGEST_MARGIN, so noise hides no larger slowdown.
 """
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures one scene in a process of its own: ``python -m tools.bench.child``.
 
-Kept results are not rendered again. On standard error, a line ``STEP paths`` counts the paths that
-were just rendered (Scene.work), and ``KEPT paths`` those of a kept result.
+Kept results are not rendered again. The child reports on standard error: a line ``STEP paths`` has
+the number of paths just rendered (Scene.work), ``KEPT paths`` that of a kept result.
 """
 
 import argparse

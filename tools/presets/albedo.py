@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the facet albedo that gives a rough matte surface its measured total albedo.
 
-Facets colour the light again at each bounce. If a white surface loses the part e_k of its light at
-bounce k, facets of albedo r give a total albedo of the sum of e_k r^k. The oracle's walks measure
-e_k under an even sky, whose light is weighted by the cosine.
+Facets colour the light again at each bounce. Let e_k be the part of a white surface's light that
+leaves at bounce k. Facets of albedo r then give a total albedo of the sum of e_k r^k. The oracle's
+walks measure e_k under an even sky, whose light is weighted by the cosine.
 """
 
 from functools import cache
