@@ -12,6 +12,8 @@ from osl.oracle.reference_cases import CASES, GLASS
 from osl.oracle.vectors import direction
 from osl.oracle.view import to_local
 
+pytestmark = pytest.mark.nightly
+
 
 @pytest.mark.parametrize("ior", [1.5, 1.0 / 1.5])
 def test_energies_are_the_dielectrics(ior):

@@ -14,6 +14,8 @@ from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, UNCORR
 from osl.oracle.vectors import direction, dot, half_vector, normalize
 from osl.oracle.walk import bounces, turn_and_leave
 
+pytestmark = pytest.mark.nightly
+
 WI = direction(1.2)
 CASES = [
     (Conductor(), direction(0.6, 2.0)),

@@ -15,6 +15,8 @@ from osl.oracle.quadrature import gauss_legendre
 from osl.oracle.surface import BECKMANN, Surface
 from osl.oracle.vectors import normalize, vector
 
+pytestmark = pytest.mark.nightly
+
 FIELDS = 64
 SIDE = 64  # in correlation lengths
 EDGES = np.array([-1.8, -1.2, -0.6, 0.0, 0.6, 1.2, 1.8])  # of cells of slopes, over alpha

@@ -55,6 +55,7 @@ def test_walks_lose_nothing(material, side, distribution, model):
             np.testing.assert_array_equal(found.transmitted.mean, 0.0)
 
 
+@pytest.mark.nightly
 @every_model
 @every_ndf
 @every_arrival
@@ -67,6 +68,7 @@ def test_thinned_walks_lose_nothing_on_average(material, side, distribution, mod
     assert np.all(error < 2e-3)
 
 
+@pytest.mark.nightly
 @every_ndf
 @every_arrival
 def test_first_bounce_of_correlated_and_height_tracked_models_is_the_same(
@@ -146,6 +148,7 @@ def test_first_energy_of_ggx_1_in_closed_form(model):
     assert found.standard_error[0, 0] < 1.5e-3
 
 
+@pytest.mark.nightly
 @every_model
 @every_ndf
 @pytest.mark.parametrize("material", LOSSLESS, ids=name)
@@ -194,6 +197,7 @@ def test_an_index_of_1_lets_all_light_through(model):
 EXTREME = [(1e-4, 1e-4), (1e-4, 1.0), (1.0, 1.0)]
 
 
+@pytest.mark.nightly
 @every_model
 @every_ndf
 @pytest.mark.parametrize(

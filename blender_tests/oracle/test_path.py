@@ -152,6 +152,7 @@ LOBES = {
 }
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("case", LOBES)
 def test_lobes_of_the_uncorrelated_model_alone_are_reciprocal(case):
     (estimator, walks), alpha, distribution, material, through = LOBES[case]

@@ -90,6 +90,7 @@ def test_first_hits_from_above_are_facets_at_random(alpha):
     assert np.all(np.abs(square - whole.variance) < 4.0 * error)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("alpha", ALPHAS)
 def test_light_from_below_meets_the_field_upside_down(alpha):
     # turned about by a point reflection, a field of glass is lit from the other side
@@ -113,6 +114,7 @@ def shares(tracer, wi, material, rays, rng):
     return counts / rays
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("theta", [0.0, 0.5])
 def test_smith_holds_where_little_is_masked(theta):
     # At alpha 0.25 all but 0.2 % leaves at once. The surface is not Smith's: height and slope of a

@@ -114,6 +114,7 @@ def test_light_from_behind_comes_through_glass_alone():
         assert np.all((picture["mean"][centre] > 0.01) == through)
 
 
+@pytest.mark.nightly
 def test_inside_out_glass_is_glass_of_the_inverse_index():
     """Two ways to write the same: a viewer below the surface, and a medium turned around."""
     found = []

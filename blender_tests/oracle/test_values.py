@@ -31,6 +31,8 @@ from osl.oracle.surface import BECKMANN, CORRELATED, GGX, HEIGHT_TRACKED, MODELS
 from osl.oracle.vectors import direction, dot, to_side
 from osl.oracle.walk import ROULETTE, turn_and_leave
 
+pytestmark = pytest.mark.nightly
+
 NDFS = [GGX, BECKMANN]
 MATERIALS = [
     Conductor(F82Tint((0.95, 0.75, 0.35), (0.98, 0.95, 0.75))),

@@ -124,6 +124,7 @@ def test_white_surfaces_lose_nothing(distribution, theta, alpha):
     assert found.remaining.max() < 1e-9
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("distribution", NDFS)
 @pytest.mark.parametrize("alpha", [(0.5, 0.5), (1.0, 1.0), (1.0, 0.1)])
 def test_roulette_changes_no_mean(distribution, alpha):
@@ -147,6 +148,7 @@ def test_truncation_is_reported():
     np.testing.assert_array_less(np.abs(difference), 4.0 * error)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("distribution", NDFS)
 @pytest.mark.parametrize("alpha", [(0.5, 0.5), (1.0, 0.3)])
 def test_values_integrate_to_energies(distribution, alpha):

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A dielectric whose walks take the rarer of reflection and refraction more often than light does.
+"""A dielectric whose walks reflect and refract at more even odds than light does.
 
-Glass reflects 4 % of the light that meets it straight on. What a front-lit surface shows comes from
-those few walks alone, and their noise is that of rare, bright events. Here walks choose in the
-ratio of the cube roots of both shares and carry the quotient as a weight: the same means, with a
-fifth of the walks for the same error (IOR 1.5, GGX alpha 1, lit from the front; lit from behind it
-gains nothing and loses nothing).
+Glass reflects 4 % of the light that meets it straight on. So few walks make the whole picture of a
+front-lit surface, and it is noisy. Here the odds are the cube roots of both shares, and a weight
+makes up for the difference. The means are the same. A front-lit surface (IOR 1.5, GGX, alpha 1)
+needs a fifth of the walks for the same error. Light from behind gains and loses nothing.
 """
 
 from collections.abc import Callable
@@ -20,12 +19,12 @@ from .vectors import dot, mirrored, normalize, vector
 
 @dataclass(frozen=True)
 class BalancedDielectric(Dielectric):
-    """A `Dielectric` with another choice in `scatter`; all its values are the same."""
+    """A `Dielectric` that scatters at balanced odds; its BSDF is the same."""
 
     def scatter(
         self, v: np.ndarray, m: np.ndarray, below: np.ndarray, rng: np.random.Generator
     ) -> Scattered:
-        """Reflect or refract by the balanced chance, with weights that make up for it."""
+        """Reflect or refract at balanced odds; weights make up for them."""
         eta = self.eta(below)
         cosine = np.clip(dot(v, m), 0.0, 1.0)
         reflectance = dielectric_reflectance(cosine, eta)
@@ -45,12 +44,12 @@ class BalancedDielectric(Dielectric):
         crossed: np.ndarray,
         D: Callable[[np.ndarray], np.ndarray],
     ) -> Turn:
-        """As the dielectric's, with this one's chance."""
+        """The dielectric's vertex term, with the balanced ``choice``."""
         found = super().turn(v, o, m, below, crossed, D)
         return found._replace(choice=_balanced(found.choice))
 
 
 def _balanced(share: np.ndarray) -> np.ndarray:
-    """The chance to choose the way that takes this share of the light, the other one the rest."""
+    """The chance to choose the way that takes this ``share`` of the light."""
     root, other = np.cbrt(share), np.cbrt(1.0 - share)
     return root / (root + other)

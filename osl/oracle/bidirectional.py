@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Values of the BSDF by bidirectional path sampling, beside the walk of `estimate.evaluate`.
 
-For a path of k bounces, s vertices are drawn from wi, k - 1 - s from wo, and one vertex connects
-them. All k ways to divide it (s = 0 .. k - 1) are combined by multiple importance sampling with the
-balance heuristic (Veach 1997): each sample counts its contribution over the sum of the densities
-with which all ways would have drawn the same path. s = k - 1 alone is the one-way walk. That one
-never finds some narrow peaks, such as those of a dielectric of IOR near 1 (test_bidirectional.py).
+A path of k bounces has s vertices drawn from wi, k - 1 - s drawn from wo, and one that joins them.
+Multiple importance sampling combines all k ways to divide it (s = 0 .. k - 1), by the balance
+heuristic (Veach 1997). A sample is its contribution over the summed densities with which all ways
+would have drawn the same path. s = k - 1 alone is the one-way walk. It misses some narrow peaks,
+such as those of a dielectric of IOR near 1 (test_bidirectional.py).
 """
 
 from dataclasses import dataclass
@@ -32,9 +32,9 @@ def evaluate(
 ) -> Bounces:
     """BSDF times |cos(wo)| at each bounce, per steradian; the same as `estimate.evaluate`.
 
-    ``walks`` pairs of walks, one from each end, for each pair of directions. Errors as there, and
-    ``ValueError`` for the height-tracked model, whose paths cannot be joined by directions alone.
-    ``remaining`` is not estimated: nan.
+    Each pair of directions takes ``walks`` pairs of walks, one from each end. ``remaining`` is nan:
+    it is not estimated. Raises the errors of `estimate.evaluate`, and ``ValueError`` for the
+    height-tracked model, because directions alone cannot join its paths.
     """
     wi, wo = pairs(wi, wo, surface)
     flat, target = wi.reshape(-1, 3), wo.reshape(-1, 3)
@@ -44,7 +44,7 @@ def evaluate(
     for rows, each in batches(flat.shape[0], walks):
         moments.start(rows, each)
         start, end = (np.repeat(w[rows], each, axis=0) for w in (flat, target))
-        # the vertex that joins two walks is counted with neither
+        # the vertex that joins two walks belongs to neither
         near, far = (_Walks.start(w, surface, max_bounces - 1, rng) for w in (start, end))
         walk = np.arange(start.shape[0])
         for k in range(2 if exact else 1, max_bounces + 1):
@@ -58,7 +58,7 @@ def evaluate(
 
 @dataclass(frozen=True)
 class _Walks:
-    """Walks from one ``end``, ``(n, 3)``: their vertices, and these' terms in that order."""
+    """Walks from one ``end`` ``(n, 3)``, with the terms of their vertices in walking order."""
 
     end: np.ndarray
     path: Path
@@ -74,7 +74,7 @@ class _Walks:
         return cls(end, path, terms(path, surface), terms(path.reversed(), surface)[::-1])
 
     def after(self, vertices: int) -> tuple[np.ndarray, np.ndarray]:
-        """Where the next vertex receives the walks from after so many, and on which side."""
+        """The next vertex's ``v`` and ``below`` after this many ``vertices``."""
         if vertices == 0:
             return to_side(self.end)
         last = vertices - 1
@@ -103,6 +103,6 @@ def _combined(whole: Terms) -> np.ndarray:
     after = np.cumsum(np.concatenate([nothing, whole.backward[:0:-1]]), axis=0)[::-1]
     log_density = logsumexp(before + whole.facet + after, axis=0)
     log_value = log_contribution(whole)
-    # what cannot be drawn in any way contributes nothing either
+    # a path that no way can draw contributes nothing either
     log_density = np.where(np.isneginf(log_value), 0.0, log_density)
     return np.exp(log_value - log_density)[:, None] * whole.weight.prod(axis=0)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of numbers that callers give. Every message names the value and what would do."""
+"""Checks of the numbers that callers give. Every message names the value and the remedy."""
 
 from numbers import Integral, Real
 
 import numpy as np
 
-# Squares of widths and of indices of refraction, and their ratios, stay far from the limits of
-# double precision in this range; beyond it a surface is a mirror, or light goes straight on.
+# In this range squares and ratios of alphas and of indices of refraction stay far from the limits
+# of double precision. Beyond it a surface is a mirror, or light goes straight on.
 SMALLEST, LARGEST = 1e-8, 1e8
 
 
@@ -20,17 +20,19 @@ def count(value: object, name: str, least: int) -> int:
 
 
 def number(value: object, name: str, low: float, high: float, what: str) -> float:
-    """``value`` as a float from ``low`` to ``high``; else ``TypeError``, or ``ValueError`` that
-    calls it a ``what``."""
+    """``value`` as a float from ``low`` to ``high``; ``TypeError`` or ``ValueError`` otherwise.
+
+    ``what``: the message's word for such a number.
+    """
     if not isinstance(value, Real) or isinstance(value, bool):
         raise TypeError(f"{name} is {value!r}; give a number")
-    if not low <= value <= high:  # as for NaN, which compares false
+    if not low <= value <= high:  # also true for NaN
         raise ValueError(f"{name} is {value}; give a {what} from {low:g} to {high:g}")
     return float(value)
 
 
 def generator(rng: object) -> np.random.Generator:
-    """A Generator from one, or from a seed >= 0; ``ValueError`` otherwise."""
+    """A Generator from a Generator or a seed >= 0; ``ValueError`` otherwise."""
     try:
         return np.random.default_rng(rng)
     except (TypeError, ValueError) as error:

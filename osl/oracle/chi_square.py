@@ -8,21 +8,22 @@ from scipy.stats import chi2
 
 from .quadrature import gauss_legendre
 
-FEWEST = 5.0  # draws that a cell must expect for the statistic to follow its distribution
+FEWEST = 5.0  # expected draws a cell needs, so that the statistic is chi-square distributed
 
 
 def sidak(tests: int, chance: float = 0.01) -> float:
-    """The p-value under which a test fails, so that a family of ``tests`` tests fails a sampler
-    that is right with ``chance``."""
+    """The p-value below which each of ``tests`` tests fails (Sidak's correction).
+
+    A right sampler then fails one or more of them with ``chance``.
+    """
     return -np.expm1(np.log1p(-chance) / tests)
 
 
 def p_value(observed: np.ndarray, expected: np.ndarray) -> float:
-    """Chance that draws which follow ``expected`` deviate from it as much as ``observed`` does.
+    """The chance that right draws deviate from ``expected`` at least as much as ``observed`` does.
 
-    Both are counts in the same cells, any shape, the number of draws being fixed. The rarest cells
-    are pooled until they, and each of the others, expect 5 draws. ``ValueError`` where fewer than
-    two cells are left.
+    Both are counts in the same cells, of any shape, for a fixed number of draws. The rarest cells
+    are pooled until every cell expects 5 draws. ``ValueError`` if fewer than two cells are left.
     """
     order = np.argsort(expected, axis=None)
     expected, observed = np.ravel(expected)[order], np.ravel(observed)[order]
@@ -41,7 +42,9 @@ def count_in_cells(
     """Number of points ``(n,)`` in each cell between the edges, ``(columns, rows)``."""
     counts = np.histogram2d(x, y, [x_edges, y_edges])[0]
     if counts.sum() != x.size:
-        raise ValueError(f"{x.size - counts.sum():.0f} points are outside of all cells")
+        raise ValueError(
+            f"{x.size - counts.sum():.0f} points lie outside all cells; widen the edges"
+        )
     return counts
 
 
@@ -51,8 +54,10 @@ def integrate_cells(
     y_edges: np.ndarray,
     nodes: int = 12,
 ) -> np.ndarray:
-    """Integral of ``density(x, y)`` over each cell between the edges, ``(columns, rows)``, by a
-    Gauss rule of ``nodes`` x ``nodes`` points in every cell."""
+    """Integral of ``density(x, y)`` over each cell between the edges, ``(columns, rows)``.
+
+    Each cell takes a Gauss rule of ``nodes`` x ``nodes`` points.
+    """
     node, weight = gauss_legendre(nodes, 0.0, 1.0)
     width, height = np.diff(x_edges), np.diff(y_edges)
     x = (x_edges[:-1, None] + width[:, None] * node).ravel()
@@ -63,9 +68,11 @@ def integrate_cells(
 
 
 def uniform_p_value(u: np.ndarray, cells: int = 100) -> float:
-    """p-value of numbers ``(n,)`` in 0..1 that should be uniform: of a distribution function at its
-    own draws."""
+    """p-value of the claim that ``u`` ``(n,)`` is uniform in 0..1.
+
+    A distribution function is uniform at its own draws.
+    """
     observed = np.histogram(u, cells, (0.0, 1.0))[0]
     if observed.sum() != u.size:
-        raise ValueError(f"{u.size - observed.sum()} numbers are outside of 0..1")
+        raise ValueError(f"{u.size - observed.sum()} numbers are outside 0..1; rescale them")
     return p_value(observed, np.full(cells, u.size / cells))

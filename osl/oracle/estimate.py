@@ -11,12 +11,12 @@ from .surface import Surface
 from .vectors import outside
 from .walk import ROULETTE, Vertex, bounces, connection, first_bounce, pairs
 
-_BATCH = 1 << 15  # walks advanced together: their arrays fit the cache
+_BATCH = 1 << 15  # walks that advance together; their arrays fit into the cache
 
 
 @dataclass(frozen=True)
 class Bounces:
-    """Estimates per bounce, first axis bounce 1, 2, ...; last axis red, green, blue.
+    """Estimates per bounce: the first axis is bounce 1, 2, ..., the last one red, green, blue.
 
     ``mean`` and ``variance`` (of the mean) have shape ``(bounces, ..., 3)``; ``remaining``
     ``(..., 3)`` is the mean weight still inside after the last bounce, the truncated energy.
@@ -41,9 +41,11 @@ class Bounces:
 
 @dataclass(frozen=True)
 class Energies:
-    """Energies per bounce: E_r, reflected to the side that the light came from; E_t, transmitted to
-    the other one; and both together. What is still inside may go either way: ``remaining`` is
-    known for both together, and nan in the parts of a surface that transmits."""
+    """Energies per bounce: E_r ``reflected``, E_t ``transmitted``, and ``both`` together.
+
+    Reflected light leaves on the side that it came from. Energy that is still inside may go either
+    way if the surface transmits. Then ``remaining`` is nan in the two parts.
+    """
 
     reflected: Bounces
     transmitted: Bounces
@@ -60,13 +62,12 @@ def energies(
 ) -> Energies:
     """Energy that leaves at each bounce of walks that start towards ``wi`` ``(..., 3)``.
 
-    By the equality of both integrals this is also what is seen from ``wi`` in a uniform world of
-    radiance 1 (across a dielectric: of basic radiance 1). ``walks`` per direction, at least 2;
-    ``rng`` a Generator or a seed.
-    Walks lighter than ``roulette`` are thinned at random; where all but the first bounce is faint,
-    that makes rare, heavy survivors, and 0 gives the sounder error. Raises ``ValueError`` for
-    directions that are not unit vectors above the surface (either side of it where it transmits),
-    and for counts that are too small.
+    Both integrals are equal, so this is also what ``wi`` sees in a uniform world of radiance 1 (of
+    basic radiance 1 across a dielectric). ``walks`` per direction, at least 2; ``rng`` a Generator
+    or a seed. Walks lighter than ``roulette`` are thinned at random. If all bounces after the first
+    are faint, few heavy walks survive, and ``roulette`` 0 gives the sounder error. Raises
+    ``ValueError`` for directions that are not unit vectors above the surface (either side of it
+    where it transmits), and for counts that are too small.
     """
     wi = outside(wi, "wi", surface.material.transmits)
     flat = wi.reshape(-1, 3)
@@ -105,9 +106,9 @@ def evaluate(
 ) -> Bounces:
     """BSDF times |cos(wo)| at each bounce, per steradian, by connecting every vertex to ``wo``.
 
-    ``wi`` and ``wo`` broadcast to ``(..., 3)``, each pair with ``walks`` walks of its own. Where
-    facets are smooth bounce 1 is exact, with variance 0. The values are densities of energy: across
-    a dielectric, radiance takes another factor (materials.py). Other arguments and errors as in
+    ``wi`` and ``wo`` broadcast to ``(..., 3)``, each pair takes ``walks`` walks of its own. Bounce
+    1 is exact, with variance 0, if facets are smooth. The values are densities of energy. Radiance
+    takes another factor across a dielectric (materials.py). Other arguments and errors as in
     `energies`; ``ValueError`` also for a dielectric of IOR 1.
     """
     wi, wo = pairs(wi, wo, surface)
@@ -139,7 +140,7 @@ def lobe(
 ) -> Bounces:
     """BSDF times |cos(wo)| of one ``wi`` ``(3,)`` against many ``wo`` ``(..., 3)``, per steradian.
 
-    All ``wo`` see the same walks, so the error is smooth over the lobe, and a thousand directions
+    All ``wo`` share the same walks, so the error is smooth over the lobe. A thousand directions
     cost little more than their connections. Otherwise as `evaluate`.
     """
     transmits = surface.material.transmits
@@ -174,11 +175,11 @@ def batches(directions: int, walks: int) -> Iterator[tuple[slice, int]]:
 
 
 class Moments:
-    """Means and variances of the mean per bounce and direction, gathered batch by batch."""
+    """Sums up means, and variances of the mean, per bounce and direction, batch by batch."""
 
     def __init__(self, max_bounces: int, directions: int, walks: int, surface: Surface) -> None:
         max_bounces = count(max_bounces, "max_bounces", 1)
-        self.walks = count(walks, "walks", 2)  # of one alone there is no variance
+        self.walks = count(walks, "walks", 2)  # one walk alone has no variance
         self.channels = surface.material.channels
         self.mean = np.zeros((max_bounces, directions, self.channels))
         self.square = np.zeros_like(self.mean)
@@ -198,7 +199,7 @@ class Moments:
         self.square[bounce, self.pairs] += self._per_direction(walk, value * value)
 
     def finish(self, cut_off: Vertex | None = None) -> None:
-        """End the batch; ``cut_off`` is the last vertex of walks that were alive when it ended."""
+        """End the batch; ``cut_off`` is the last vertex if `max_bounces` ended walks."""
         self.total[self.pairs] += self.sums.sum(axis=1) / self.walks
         self.total_square[self.pairs] += (self.sums * self.sums).sum(axis=1) / self.walks
         if cut_off is not None:

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fresnel factors: of conductors, by colour and edge tint or by complex index, and of dielectrics.
+"""Fresnel factors of conductors (by colour and edge tint, or by complex index) and dielectrics.
 
-A conductor's factor is called with cosines ``(...)`` of the angle between direction and micronormal
-and returns reflectances ``(..., C)`` in 0..1; C is 3 (red, green, blue), or 1 where channels are
-equal.
+A conductor's factor takes cosines ``(...)`` of the angle between direction and micronormal. It
+returns reflectances ``(..., C)`` in 0..1. C is 3 (red, green, blue), or 1 if channels are equal.
 """
 
 from collections.abc import Sequence
@@ -78,7 +77,7 @@ class IndexOfRefraction:
 
     def __call__(self, cos_theta: np.ndarray) -> np.ndarray:
         """Reflectances ``(..., 3)``."""
-        # Exactly grazing both amplitudes can be 0/0; the floor is far below any angle that matters.
+        # At grazing both amplitudes can be 0/0. The floor is far below any angle that matters.
         c = np.clip(cos_theta, 1e-9, 1.0)[..., None]
         eta2 = (np.asarray(self.n, dtype=np.float64) + 1j * np.asarray(self.k)) ** 2
         q = np.sqrt(eta2 - (1.0 - c * c))  # eta times the cosine of refraction
@@ -92,15 +91,15 @@ def dielectric_reflectance(cos_theta: np.ndarray, eta: np.ndarray | float) -> np
     Fresnel's equations (Born, Wolf, Principles of Optics, section 1.5.2).
 
     ``cos_theta`` ``(...)`` is the cosine of incidence in 0..1; ``eta`` the index beyond the
-    interface over that on this side. 1 beyond the critical angle. With g = eta cos(theta_t), so
-    g^2 = eta^2 - 1 + c^2, the differences in Fresnel's amplitudes (c - g)/(c + g) and
-    (eta^2 c - g)/(eta^2 c + g) are multiplied out, which keeps all digits for eta near 1.
+    interface over that on this side. The result is 1 beyond the critical angle. With g = eta
+    cos(theta_t), so g^2 = eta^2 - 1 + c^2, the differences in Fresnel's amplitudes (c - g)/(c + g)
+    and (eta^2 c - g)/(eta^2 c + g) are multiplied out, which keeps all digits for eta near 1.
     """
     c = np.clip(cos_theta, 0.0, 1.0)
     eta2 = np.square(eta)
     rise = np.subtract(eta, 1.0) * np.add(eta, 1.0)  # eta^2 - 1
     g = np.sqrt(np.maximum(rise + c * c, 0.0))
-    # c + g = 0 only exactly grazing at eta <= 1, where the reflectance is 1
+    # c + g is 0 only at grazing with eta <= 1, and the reflectance is 1 there
     sum_s, sum_p = c + g, eta2 * c + g
     r_s = rise / np.where(sum_s > 0.0, sum_s, 1.0) ** 2
     r_p = rise * ((eta2 + 1.0) * c * c - 1.0) / np.where(sum_p > 0.0, sum_p, 1.0) ** 2

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random Gaussian height fields: surfaces whose facets have Beckmann's distribution of normals.
 
-White noise is filtered in the frequency domain so that heights of standard deviation 1 have the
-autocorrelation exp(-(x/tau_x)^2 - (y/tau_y)^2), and is made a periodic sheet of triangles. Slopes
-of Beckmann's NDF are Gaussian with variances alpha_x^2/2 and alpha_y^2/2 (Heitz 2014), so tau_x is
-about 2/alpha_x: an anisotropic surface is an isotropic one that is stretched along one axis.
+A filter in the frequency domain gives white noise the autocorrelation
+exp(-(x/tau_x)^2 - (y/tau_y)^2) and the standard deviation 1. These heights make a periodic sheet of
+triangles. Slopes of Beckmann's NDF are Gaussian with variances alpha_x^2/2 and alpha_y^2/2 (Heitz
+2014), so tau_x is about 2/alpha_x. An anisotropic surface is a stretched isotropic one.
 
-A facet's slope is a difference of heights over the spacing d of the samples. It is Gaussian as the
-heights are, with variance 2 (1 - rho)/d^2, rho being the correlation of neighbouring heights; d is
-chosen so that this is alpha^2/2 exactly, at any resolution.
+A facet's slope is a difference of heights over the spacing d of the samples. It is Gaussian like
+the heights, with variance 2 (1 - rho)/d^2. rho is the correlation of neighbouring heights. d is
+chosen so that this is exactly alpha^2/2 at any resolution.
 """
 
 from collections.abc import Sequence
@@ -23,9 +23,11 @@ from .surface import BECKMANN, Surface
 
 @dataclass(frozen=True)
 class SlopeStatistics:
-    """Moments of the slopes dz/dx and dz/dy over the facets of a sheet, all of which have the same
-    projected area. ``mean``, ``variance`` and ``kurtosis`` (3 for a Gaussian) are of shape
-    ``(2,)``. Kurtosis along an axis of constant slope, and the correlation with it, are nan."""
+    """Moments of the slopes dz/dx and dz/dy over the facets of a sheet.
+
+    All facets have the same projected area. ``mean``, ``variance`` and ``kurtosis`` (3 for a
+    Gaussian) have shape ``(2,)``. An axis of constant slope has kurtosis and correlation nan.
+    """
 
     mean: np.ndarray
     variance: np.ndarray
@@ -38,11 +40,11 @@ class HeightField:
     """A periodic sheet of triangles above a grid.
 
     ``heights`` ``(nx, ny)``: z of the vertices at x = i dx, y = j dy, for i and j from 0; both
-    counts even. ``spacing``: (dx, dy), in the unit of the heights. Each cell of the grid is two
-    facets, and the diagonal that parts them alternates like the colours of a chessboard: facets on
-    one diagonal alone would have correlated slopes along x and y.
+    counts even. ``spacing``: (dx, dy), in the unit of the heights. Each cell of the grid has
+    two facets. The diagonal between them alternates like the colours of a chessboard, because on
+    one diagonal alone the slopes along x and y would be correlated.
     Raises ``ValueError`` for other shapes, heights that are not finite and spacings not above 0,
-    and ``TypeError`` for heights that are no real numbers.
+    and ``TypeError`` for heights that are not real numbers.
     """
 
     heights: np.ndarray
@@ -72,12 +74,12 @@ class HeightField:
         """A random sheet with the slopes of ``surface``, whose distribution must be Beckmann's.
 
         ``cells``: even number of samples along each axis. ``resolution``: samples in a correlation
-        length, at least 2; what facets of finite size change falls with its square, and at 12 is
-        0.001 in energies of single bounces at alpha 1. The side is ``cells / resolution``
+        length, at least 2. The error from facets of finite size falls with its square. It is 0.001
+        in energies of single bounces for 12 samples at alpha 1. The side is ``cells / resolution``
         correlation lengths, at least 4; one sheet's slope variance has a relative standard
         deviation of about 1.5 / that. ``rng`` a Generator or a seed; the same seed gives the same
-        heights for every alpha. Raises ``ValueError`` for values out of range, and ``TypeError``
-        for ``cells`` that is no whole number.
+        heights for every alpha. Raises ``ValueError`` for values out of range, and ``TypeError`` if
+        ``cells`` is not a whole number.
         """
         if surface.distribution != BECKMANN:
             raise ValueError(
@@ -88,7 +90,7 @@ class HeightField:
         if count(cells, "cells", 2) % 2 or cells < 4.0 * resolution:
             raise ValueError(f"cells is {cells}; give an even number of {4.0 * resolution} or more")
         angle = 2.0 * np.pi * fft.fftfreq(cells)
-        # root of the spectrum, which is the transform of the autocorrelation
+        # the spectrum's root; the spectrum is the transform of the autocorrelation
         root = np.exp(-0.125 * (resolution * angle) ** 2)
         amplitude = root[:, None] * root[: cells // 2 + 1]
         amplitude[0, 0] = 0.0  # the mean height

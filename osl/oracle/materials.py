@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the facets of a rough surface do with light: mirrors, glass, or matte.
 
-A path that arrives from ``v`` at a facet of normal ``m`` goes on to ``o``. Directions are given in
-the frame of the side of the surface that the path is on: above it the common frame, below it the
-common frame with all directions negated, so that on both sides ``z`` points away from the surface
-and a facet's normal has the same components, ``m.z > 0``. ``o`` belongs to the side that the path
-is on afterwards: where ``o.z > 0`` it may leave the surface on that side.
+A path that arrives from ``v`` at a facet of normal ``m`` goes on to ``o``. A direction is in the
+frame of the side of the surface that the path is on. Above, that is the common frame. Below, it is
+the common frame with all directions negated. So ``z`` points away from the surface on both sides,
+and a facet's normal has the same components, ``m.z > 0``. ``o`` is in the frame of the side that
+the path is on afterwards. The path may leave on that side if ``o.z > 0``.
 """
 
 from abc import ABC, abstractmethod
@@ -31,9 +31,12 @@ class Scattered(NamedTuple):
 
 @dataclass(frozen=True)
 class Bounce:
-    """What ``n`` paths do at a facet. ``walk`` ``(n,)``: which of the paths they are. ``v``
-    ``(n, 3)`` and ``below`` ``(n,)``, the side they are on, on arrival; the facet ``m`` ``(n, 3)``;
-    and afterwards ``o`` ``(n, 3)`` and whether they ``crossed`` ``(n,)``."""
+    """What ``n`` paths do at a facet.
+
+    ``walk`` ``(n,)``: the paths' numbers. On arrival: ``v`` ``(n, 3)``, and ``below`` ``(n,)``, the
+    side they are on. ``m`` ``(n, 3)``: the facet's normal. Afterwards: ``o`` ``(n, 3)``, and
+    whether they ``crossed`` the surface ``(n,)``.
+    """
 
     walk: np.ndarray
     v: np.ndarray
@@ -57,8 +60,8 @@ class Turn(NamedTuple):
     """The vertex term of turning from v to o, in its parts.
 
     ``density`` ``(...)``, per steradian of o, is the integral over facets of <v,m> D(m) times the
-    density of turning from v to o at a facet (where facets are not smooth: the integrand at the
-    facet m, per steradian of m as well). ``weight`` ``(..., C)`` is the factor on the light, and
+    density of turning from v to o at a facet. For rough facets it is the integrand at the facet m,
+    per steradian of m as well. ``weight`` ``(..., C)`` is the factor on the light, and
     ``choice`` ``(...)`` the chance with which `Material.scatter` reflects or transmits as asked.
     """
 
@@ -68,9 +71,11 @@ class Turn(NamedTuple):
 
 
 class Material(ABC):
-    """What facets do. ``channels`` is 3 (red, green, blue), or 1 where channels are equal;
-    ``transmits`` tells whether light may cross the surface; ``smooth`` whether v and o determine
-    the facet's normal."""
+    """What facets do with light.
+
+    ``channels`` is 3 (red, green, blue), or 1 if channels are equal. ``transmits``: whether light
+    may cross the surface. ``smooth``: whether v and o determine the facet's normal.
+    """
 
     channels: int
     transmits: bool
@@ -80,8 +85,10 @@ class Material(ABC):
     def scatter(
         self, v: np.ndarray, m: np.ndarray, below: np.ndarray, rng: np.random.Generator
     ) -> Scattered:
-        """Draw where paths from ``v`` ``(n, 3)``, on the side ``below`` ``(n,)``, go at facets
-        ``m`` ``(n, 3)``, <v,m> > 0."""
+        """Draw where paths go that come from ``v`` ``(n, 3)`` to facets ``m`` ``(n, 3)``.
+
+        The paths are on the side ``below`` ``(n,)``, and <v,m> > 0.
+        """
 
     @abstractmethod
     def turn(
@@ -93,12 +100,12 @@ class Material(ABC):
         crossed: np.ndarray,
         D: Callable[[np.ndarray], np.ndarray],
     ) -> Turn:
-        """The vertex term; ``m`` matters only where facets are not smooth. Arguments broadcast."""
+        """The vertex term; ``m`` matters only if facets are not smooth. Arguments broadcast."""
 
     def at_facet(self, o: np.ndarray, m: np.ndarray, crossed: np.ndarray) -> np.ndarray:
         """Weighted density of turning to ``o`` at the facet ``m``, per steradian, ``(..., C)``;
-        ``TypeError`` where facets are smooth, and go one way alone."""
-        raise TypeError(f"{self} has smooth facets, which have no density")
+        ``TypeError`` if facets are smooth, because they send light one way alone."""
+        raise TypeError(f"{self} has smooth facets, which have no density; use turn")
 
 
 @dataclass(frozen=True)
@@ -117,7 +124,7 @@ class Conductor(Material):
 
     @property
     def channels(self) -> int:
-        """1 where the Fresnel factor is the same for all colours, else 3."""
+        """1 if the Fresnel factor is the same for all colours, else 3."""
         return self.fresnel(np.ones(1)).shape[-1]
 
     def scatter(
@@ -149,8 +156,8 @@ class Dielectric(Material):
     """Glass: reflected with the chance F(<v,m>), else refracted; nothing is absorbed.
 
     ``ior``: index of refraction below the surface over that above it, 1e-8 to 1e8; else
-    ``ValueError``. The densities are those of energy: radiance that crosses from index n1 to n2
-    takes another (n2/n1)^2.
+    ``ValueError``. Densities are those of energy. Radiance that crosses from index n1 to n2 takes
+    another (n2/n1)^2.
     """
 
     ior: float = 1.5
@@ -191,9 +198,11 @@ class Dielectric(Material):
         """<v,h> D(h) F / (4 <v,h>), or <v,h> D(h) (1 - F) eta^2 <o,h> / (<v,h> - eta <o,h>)^2
         (Walter et al. 2007, eqs. 16-17; o in the frame of the other side)."""
         if self.ior == 1.0:
-            raise ValueError("ior is 1, where all light goes straight on: its density is no number")
+            raise ValueError(
+                "ior is 1, where all light goes straight on and has no density; give another ior"
+            )
         eta = self.eta(below)
-        # v - eta o is parallel to the facet's normal, and points inwards where eta > 1
+        # v - eta o is parallel to the facet's normal, and points inwards if eta > 1
         along = (v - eta[..., None] * o) * np.where(eta > 1.0, -1.0, 1.0)[..., None]
         h = np.where(crossed[..., None], normalize(along), half_vector(v, o))
         cos_i, cos_o = dot(v, h), dot(o, h)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Normal distribution functions and all that follows from them: D, sigma, Lambda, Dvis.
+"""The NDF and what follows from it: D, sigma, Lambda, Dvis.
 
-sigma(w), the projected area of all micronormals that face w, carries the whole of Smith's theory
-on the full sphere and is finite everywhere, so nothing here divides by a cosine.
+All of Smith's theory on the full sphere follows from sigma(w), the projected area of the
+micronormals that face w. It is finite everywhere, so nothing here divides by a cosine.
 """
 
 import numpy as np
@@ -16,8 +16,8 @@ def D(m: np.ndarray, surface: Surface) -> np.ndarray:
     """Density of micronormals ``m`` ``(..., 3)`` per steradian and unit of macrosurface, ``(...)``.
 
     0 where ``m.z <= 0``. Its integral weighted with ``m.z`` is 1. Walter et al. 2007, eqs. 25
-    (Beckmann) and 33 (GGX), stretched along x and y. ``m`` is not checked, nor is ``w`` below: the
-    walk calls both for every vertex.
+    (Beckmann) and 33 (GGX), stretched along x and y. `D` and `sigma` do not check their
+    directions, because the walk calls them for every vertex.
     """
     m = np.asarray(m, dtype=np.float64)
     z = np.maximum(m[..., 2], 0.0)
@@ -35,8 +35,8 @@ def sigma(w: np.ndarray, surface: Surface) -> np.ndarray:
     """Projected area of micronormals facing ``w``: integral of <w,m> D(m) dm, shape ``(...)``.
 
     The denominator of eq. 4. Equals ``(1 + Lambda(w)) w.z`` (eqs. 1-3), >= 0 on the whole sphere.
-    Above the horizon it is ``w.z + sigma(-w)``, so only the part below the horizon needs a formula
-    without cancellation.
+    It is ``w.z + sigma(-w)`` above the horizon, so only directions below need a formula without
+    cancellation.
     """
     w = np.asarray(w, dtype=np.float64)
     z = w[..., 2]
@@ -54,7 +54,7 @@ def sigma(w: np.ndarray, surface: Surface) -> np.ndarray:
 
 def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:
     """Smith's Lambda for ``w.z != 0`` on either side of the horizon (eq. 2): sigma(w)/w.z - 1.
-    ``ValueError`` for what is no unit vector."""
+    ``ValueError`` for a ``w`` that is not a unit vector."""
     w = unit_vectors(w, "w")
     upper = w[..., 2] > 0.0
     facing = np.where(upper, 1.0, -1.0)[..., None] * w
@@ -65,8 +65,8 @@ def Lambda(w: np.ndarray, surface: Surface) -> np.ndarray:
 def Dvis(v: np.ndarray, m: np.ndarray, surface: Surface) -> np.ndarray:
     """Density per steradian of the micronormals ``m`` that ``v`` sees: <v,m> D(m) / sigma(v).
 
-    ``v`` may lie below the horizon. Raises ``ValueError`` for what is no unit vector, and where v
-    sees no micronormal that double precision can tell from none (sigma(v) = 0).
+    ``v`` may lie below the horizon. Raises ``ValueError`` for directions that are not unit vectors,
+    and if v sees no micronormal in double precision (sigma(v) = 0).
     """
     v, m = unit_vectors(v, "v"), unit_vectors(m, "m")
     area = sigma(v, surface)

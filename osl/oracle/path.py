@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Light paths through the microgeometry, and what one of them contributes.
+"""Light paths through the microgeometry, and what each one contributes.
 
 A path of k bounces is k vertices. Vertex i receives it from v_i and sends it to o_i; v_1 = wi,
 v_{i+1} = -o_i, and o_k = wo. The density with which light from wi leaves along wo on such a path is
-a product of one term a vertex (section 2 of the supplement: vertex terms times segment terms):
+a product of one term per vertex (section 2 of the supplement: vertex terms times segment terms):
 
     f = 1/sigma(wi) * product over i < k of V_i p_stay_i / sigma(-o_i) * V_k p_exit_k
 
@@ -30,8 +30,11 @@ from .visible import sample
 
 @dataclass(frozen=True)
 class Path:
-    """``n`` paths of k vertices: ``v``, ``o`` and facets ``m`` ``(k, n, 3)`` in the frames of their
-    sides (materials.py); ``below``, the side on arrival, and ``crossed`` ``(k, n)``."""
+    """``n`` paths of k vertices.
+
+    ``v``, ``o`` and facets ``m`` ``(k, n, 3)`` are in the frames of their sides (materials.py).
+    ``below``, the side on arrival, and ``crossed`` are ``(k, n)``.
+    """
 
     v: np.ndarray
     o: np.ndarray
@@ -49,9 +52,9 @@ class Path:
 
 @dataclass(frozen=True)
 class Terms:
-    """What each vertex of paths contributes; logarithms but for ``weight``, shape ``(k, n)``.
+    """What each vertex of paths contributes: logarithms ``(k, n)``, and ``weight`` ``(k, n, C)``.
 
-    ``turn`` = V without ``weight`` ``(k, n, C)``, its factor on the light; ``area`` = sigma(v);
+    ``weight`` = V's factor on the light; ``turn`` = V without it; ``area`` = sigma(v);
     ``stay`` = p_stay / sigma(-o) and ``leave`` = p_exit. Densities of drawing the vertex:
     ``forward``, o from v (and m); ``backward``, v from o (and m); ``facet``, of m alone when both
     are given.
@@ -76,17 +79,22 @@ class Terms:
 
 
 def terms(path: Path, surface: Surface) -> Terms:
-    """`Terms` of every vertex. Raises ``ValueError`` for the height-tracked model, whose paths are
-    not given by their directions alone, and for a dielectric of IOR 1."""
+    """`Terms` of every vertex.
+
+    Raises ``ValueError`` for a dielectric of IOR 1, and for the height-tracked model, because
+    directions alone do not determine its paths.
+    """
     if surface.model == HEIGHT_TRACKED:
-        raise ValueError(f"model is {HEIGHT_TRACKED!r}; paths without heights need another model")
+        raise ValueError(
+            f"model is {HEIGHT_TRACKED!r}, whose paths need heights; use another model"
+        )
     v, o, m, below, crossed = (getattr(path, f.name) for f in fields(path))
     density = partial(D, surface=surface)
     turn = surface.material.turn(v, o, m, below, crossed, density)
     back = surface.material.turn(o, v, m, below ^ crossed, crossed, density)
     area, area_o, area_back = (sigma(w, surface) for w in (v, o, -o))
     odds = exit_odds(v, area, o, area_back, crossed, None, surface.model)
-    with np.errstate(divide="ignore"):  # log(0) = -inf is what a path that cannot be needs
+    with np.errstate(divide="ignore"):  # log(0) = -inf is right for an impossible path
         log_area = np.log(area)
         facet = np.zeros(area.shape)
         if not surface.material.smooth:
@@ -104,8 +112,10 @@ def terms(path: Path, surface: Surface) -> Terms:
 
 
 def log_contribution(found: Terms) -> np.ndarray:
-    """Logarithm of f without its weight, per steradian of all directions but wi (and of all facets
-    where they are not smooth), ``(n,)``."""
+    """Logarithm of f without its weight, ``(n,)``.
+
+    f is per steradian of all directions but wi, and of all facets if they are not smooth.
+    """
     total = found.turn.sum(axis=0) + found.stay[:-1].sum(axis=0) + found.leave[-1]
     return total - _finite(found.area[0])
 
@@ -117,8 +127,10 @@ def contribution(path: Path, surface: Surface) -> np.ndarray:
 
 
 def random_paths(start: np.ndarray, surface: Surface, count: int, rng: np.random.Generator) -> Path:
-    """Paths of ``count`` vertices from ``start`` ``(n, 3)``, drawn by visible normals and the
-    material alone; none leaves, none is thinned."""
+    """Paths of ``count`` vertices from ``start`` ``(n, 3)``; none leaves, none is thinned.
+
+    Visible normals and the material alone decide on their directions.
+    """
     v, below = to_side(start)
     rows = []
     for _ in range(count):
@@ -133,5 +145,5 @@ def random_paths(start: np.ndarray, surface: Surface, count: int, rng: np.random
 
 
 def _finite(log_area: np.ndarray) -> np.ndarray:
-    """Logarithms of an area to divide by; where it is 0, the density above it is 0 as well."""
+    """Logarithms of an area to divide by; if it is 0, the density over it is 0 as well."""
     return np.where(np.isneginf(log_area), 0.0, log_area)

@@ -3,8 +3,8 @@
 
 The sun's irradiance on a plane that faces it is 1 (Blender: strength 1, angle 0), so a pixel's
 radiance is the mean of BSDF times cosine over the pixel. In the uniform world of radiance 1 it is
-the mean directional albedo. Light that comes through a dielectric counts as energy (basic radiance,
-as in Cycles), not as the radiance inside, which another square of the index would scale.
+the mean directional albedo. Light through a dielectric counts as energy (basic radiance, as in
+Cycles). The radiance inside would take another square of the index.
 """
 
 from collections.abc import Callable, Iterable
@@ -15,7 +15,7 @@ from .estimate import energies, evaluate
 from .surface import Surface
 from .view import Axes, View, to_local
 
-MAX_BOUNCES = 32  # of GGX at alpha 1, less than 1e-9 of the energy is left after these
+MAX_BOUNCES = 32  # leave less than 1e-9 of the energy inside for GGX at alpha 1
 
 Progress = Callable[[Iterable[int]], Iterable[int]]
 
@@ -31,10 +31,10 @@ def sun_picture(
     """Render the view under the sun in direction ``sun`` ``(3,)`` with ``walks`` walks a point.
 
     Returns pictures ``mean``, ``error`` (standard error of the mean), ``single`` (first bounce
-    alone; exact but where facets are diffuse: then part of the same walks), and the ``mask``
-    ``(rows, columns)``; all 0 outside the mask. Pixels are
-    independent. The values of walks are skewed, so a test over many pixels should divide the sum
-    of differences by the root of summed squared errors, not average each pixel's own ratio.
+    alone), and the ``mask`` ``(rows, columns)``; all 0 outside the mask. ``single`` is exact,
+    except for diffuse facets, whose first bounce comes from the same walks. Pixels are independent.
+    Values of walks are skewed. So a test over many pixels should divide the sum of differences by
+    the root of summed squared errors, and not average each pixel's own ratio.
     """
 
     def shade(wi: np.ndarray, axes: Axes, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
@@ -74,7 +74,7 @@ def _render(
         here = view.mask[row]
         if not here.any():
             continue
-        rng = np.random.default_rng([seed, row])  # a row is the same whatever else is rendered
+        rng = np.random.default_rng([seed, row])  # a row does not depend on other rows
         values, variances, singles = shade(*view.row(row), rng)
         mean[row, here] = values.mean(axis=1)
         variance[row, here] = variances.mean(axis=1) / variances.shape[1]

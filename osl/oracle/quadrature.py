@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Integrals over micronormals, directions and heights by fixed rules, which the tests hold against
-formulas.
+"""Fixed rules for integrals over micronormals, directions and heights.
 
-Micronormals are written m ~ (alpha_x r cos(psi), alpha_y r sin(psi), 1) with r = q/(1-q), so that a
-rule over the unit square in (q, psi) resolves every alpha alike.
+Micronormals are m ~ (alpha_x r cos(psi), alpha_y r sin(psi), 1) with r = q/(1-q). So a rule over
+the unit square in (q, psi) resolves every alpha alike.
 """
 
 from dataclasses import dataclass
@@ -46,9 +45,9 @@ def visible_normals(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rule over the micronormals that face ``w`` ``(3,)``: points ``(n, 3)``, weights ``(n,)``.
 
-    w faces m where cos(psi - psi_w) > -a/r with a = w.z/t, which bounds psi for each r exactly; the
-    integrand is then smooth inside. r runs from 0 to |a| and from |a| outwards, the square root at
-    |a| smoothed by squaring the variable.
+    w faces m if cos(psi - psi_w) > -a/r with a = w.z/t. That bounds psi exactly for each r, and the
+    integrand is smooth inside. r runs from 0 to |a| and from |a| outwards. Squaring the variable
+    smooths the square root at |a|.
     """
     x, y = surface.alpha_x * w[0], surface.alpha_y * w[1]
     a = w[2] / max(np.hypot(x, y), 1e-12)
@@ -67,8 +66,10 @@ def visible_normals(
 
 
 def projected_area(w: np.ndarray, surface: Surface, count: int = 80) -> float:
-    """The integral of <w,m> D(m) over the micronormals that face ``w`` ``(3,)``: the denominator of
-    eq. 4. 80 points along each axis make it good to 4e-14."""
+    """The integral of <w,m> D(m) over the micronormals that face ``w`` ``(3,)``.
+
+    It is the denominator of eq. 4. 80 points along each axis make it good to 4e-14.
+    """
     m, weight = visible_normals(w, surface, count)
     return float((np.maximum(dot(w, m), 0.0) * D(m, surface) * weight).sum())
 
@@ -96,9 +97,9 @@ class Zone:
     """Directions o with ``z_low`` < o.z < ``z_high``, up to ``high`` radians from ``v`` ``(3,)``.
 
     Its coordinates are the angle from v, and a share of the azimuths about v that the two planes
-    allow at that angle: 0 to 1 on one side of the plane through v and z, -1 to 0 on the other. So a
-    rule in them meets no edge inside, except at the angles ``breaks``, of which one may be the
-    integrand's own ``kink``.
+    allow at that angle. The share is 0 to 1 on one side of the plane through v and z, and -1 to 0
+    on the other. So a rule in them meets edges only at the angles ``breaks``. One of these may be
+    the integrand's own ``kink``.
     """
 
     v: np.ndarray
@@ -109,8 +110,7 @@ class Zone:
 
     @property
     def breaks(self) -> np.ndarray:
-        """0, ``high``, and between them the kink and the angles where the cone about v touches one
-        of the planes' circles; ascending."""
+        """Ascending: 0, the kink, angles where the cone about v touches a plane, and ``high``."""
         theta = np.arccos(np.clip(self.v[2], -1.0, 1.0))
         planes = np.arccos(np.clip([self.z_low, self.z_high], -1.0, 1.0))
         touching = [*np.abs(planes - theta), *(np.pi - np.abs(np.pi - planes - theta))]
@@ -136,8 +136,8 @@ class Zone:
         return angle, np.copysign(np.clip(share, 0.0, 1.0), phi)
 
     def rule(self, count: int = 80) -> tuple[np.ndarray, np.ndarray]:
-        """Points ``(n, 3)`` and weights ``(n,)``; ``count`` nodes a coordinate between breaks. The
-        variable is cubed such that an integrand may begin and end like a square root there."""
+        """Points ``(n, 3)`` and weights ``(n,)``; ``count`` nodes a coordinate between breaks. A
+        cubic change of variable allows integrands that begin and end like a square root."""
         node, weight = gauss_legendre(count, 0.0, 1.0)
         smooth, slope = node * node * (3.0 - 2.0 * node), 6.0 * node * (1.0 - node)
         start, width = self.breaks[:-1, None], np.diff(self.breaks)[:, None]
@@ -163,10 +163,10 @@ class Zone:
 
 
 def facet_zones(v: np.ndarray, eta: float | None = None) -> list[Zone]:
-    """The zones of all directions to which facets, m.z > 0, turn ``v`` ``(3,)``: by reflection, and
-    where ``eta``, the index beyond over that on this side, is given, by refraction.
+    """The zones of all directions to which facets, m.z > 0, turn ``v`` ``(3,)``.
 
-    As in materials.py the refracted directions are in the frame of the other side.
+    The first is of reflection. If ``eta``, the index beyond over that on this side, is given, there
+    is another one of refraction, in the frame of the other side as in materials.py.
     """
     if eta is None:
         return [Zone(v, z_low=-v[2])]  # the facet's normal is along v + o
@@ -183,8 +183,8 @@ def heights() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Rule over the heights h of a Gaussian surface: log(u) and log(1 - u) of their distribution
     function u, and the weights' logarithms; each ``(n,)``.
 
-    Trapezoids in t with h = sinh(t), which also resolve integrands u^(a-1) with a near 0 (h far
-    down) or large (h far up), from a = 1e-7 to 1e6.
+    It takes trapezoids in t with h = sinh(t). They resolve integrands u^(a-1) from a = 1e-7 (h far
+    down) to a = 1e6 (h far up).
     """
     t = np.arange(-12.0, 4.5, 0.004)
     h = np.sinh(t)

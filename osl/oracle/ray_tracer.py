@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rays and a periodic height field in Embree.
 
-Embree computes in single precision. What it finds is which facet is hit, and about where; the
-point is then moved onto the facet's plane in double precision. The next ray starts a little above
-or below it, on the side where the ray goes on. The shift is vertical, so that it cannot pierce any
-other facet of a height field, and outweighs the rounding of the origin. A ray that nevertheless
-meets a facet from the wrong side, or passes the sheet without a hit, has leaked: it is lost.
+Embree computes in single precision. It finds which facet is hit, and about where. Double precision
+then moves the point onto the facet's plane. The next ray starts a little above or below it, on the
+side where the ray goes on. This shift outweighs the rounding of the origin. It is vertical, so it
+cannot pierce another facet of a height field. A ray that still meets a facet from the wrong side,
+or passes the sheet without a hit, has leaked and is lost.
 """
 
 from typing import NamedTuple
@@ -17,14 +17,17 @@ from embreex.rtcore_scene import EmbreeScene
 from .height_field import HeightField
 from .vectors import dot, normalize, vector
 
-_CLEARANCE = 4.0  # starts of rays above their facet, in bounds of the rounding of its height
-_MAX_PERIODS = 64  # a ray that is still between highest and lowest point after so many is dropped
-_TILES = 32  # rays are sorted by tiles of the sheet, so that they meet what the cache holds
+_CLEARANCE = 4.0  # between a facet and the start of a ray, in bounds of the height's rounding
+_MAX_PERIODS = 64  # a ray that is still inside the slab after this many is dropped
+_TILES = 32  # rays are sorted by tiles of the sheet, which suits the cache
 
 
 class Arrival(NamedTuple):
-    """Where rays get to: ``left`` ``(n,)`` if they meet nothing more, else ``m`` and ``point``
-    ``(n, 3)``, the upper normal of the facet they meet and where; ``lost`` ``(n,)`` if neither."""
+    """Where rays get to.
+
+    ``left`` ``(n,)``: they meet nothing more. ``lost`` ``(n,)``: they leaked. Otherwise ``m`` and
+    ``point`` ``(n, 3)`` are the upper normal of the facet they meet, and the place.
+    """
 
     m: np.ndarray
     point: np.ndarray
@@ -45,7 +48,7 @@ class Tracer:
         # z = plane . (x, y, 1); rows, because they are gathered by facet
         self._planes = np.concatenate([slopes, base[:, None]], axis=1)
         self._half = 0.5 * field.size
-        # of what is added up in a facet's height; the spacing counts where all is flat
+        # bounds the terms of a facet's height; the spacing counts if all is flat
         reach = np.abs(slopes).max(axis=0) @ self._half + np.abs(field.heights).max()
         reach += max(field.spacing)
         self._shift = _CLEARANCE * float(np.finfo(np.float32).eps) * float(reach)
@@ -83,7 +86,7 @@ class Tracer:
         self, point: np.ndarray, travel: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Numbers of the facets that rays meet ``(n,)``, -1 for none; about where, ``(n, 3)``; and
-        whether they are on their way still after all periods, ``(n,)``."""
+        whether they are still under way after all periods, ``(n,)``."""
         facet = np.full(point.shape[0], -1, dtype=np.int32)
         end = np.zeros_like(point)
         active = np.arange(point.shape[0])
@@ -107,8 +110,10 @@ class Tracer:
         return facet, end, endless
 
     def _next_period(self, at: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Whether rays that meet nothing in this period reach the next one before they leave the
-        slab between highest and lowest point ``(n,)``, and where they enter it ``(n, 3)``."""
+        """Whether rays that meet nothing reach the next period ``(n,)``, and where ``(n, 3)``.
+
+        Otherwise they leave the slab between the highest and the lowest point before.
+        """
         limit = np.where(along[:, 2] < 0.0, *self._slab)
         slow = np.where(along == 0.0, 1e-300, along)
         out = (limit - at[:, 2]) / slow[:, 2]

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cases of which reference pictures are made: surface, light, accuracy.
+"""The cases of the reference pictures: surface, light, accuracy.
 
-All are rendered by walks from the viewer; those of glass balance reflection and refraction
-(balanced.py). On 150 points of the sphere the bidirectional estimator took, for the same error, 18
-to 48 times as long for matte surfaces, 3 to 11 times for glass lit from the front, 1 to 6 times for
-glass lit from behind, and 0.7 times from inside the solid. What it finds the walks find as well:
-test_balanced.py compares both on every case of glass but the height-tracked ones, whose paths it
-cannot join.
+All are rendered by walks from the viewer. Walks in glass balance reflection and refraction
+(balanced.py). The bidirectional estimator was slower on 150 points of the sphere. For the same
+error it took 18 to 48 times as long for matte surfaces, 3 to 11 times for glass lit from the front,
+1 to 6 times for glass lit from behind, and 0.7 times from inside the solid. Both find the same:
+test_balanced.py compares them on every case of glass. It leaves out the height-tracked ones,
+because the bidirectional estimator cannot join their paths.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ from .view import View
 
 COMMAND = "python -m osl.oracle.references"
 
-# A gold-like metal by colours, and copper by its index near 630, 530 and 465 nm (rounded).
+# A gold-like metal by colours, and copper by its rounded index near 630, 530 and 465 nm.
 GOLD = F82Tint((0.95, 0.75, 0.35), (0.98, 0.95, 0.75))
 COPPER = IndexOfRefraction((0.20, 0.92, 1.10), (3.91, 2.45, 2.14))
 CLAY = Diffuse((0.8, 0.5, 0.2))
@@ -39,8 +39,10 @@ _MODELS = {
 
 @dataclass(frozen=True)
 class Light:
-    """Where a picture's light comes from: ``sun`` ``(3,)`` towards it, or None for a uniform world;
-    and the function that makes the view."""
+    """A picture's light: ``sun`` ``(3,)`` towards it, or None for a uniform world.
+
+    ``view`` is the function that makes the view; ``text`` describes the light in the file.
+    """
 
     text: str
     sun: np.ndarray | None = None
@@ -67,7 +69,7 @@ FURNACE = Light("uniform world, radiance 1")
 class Case:
     """One reference picture: its surface, walks per point, seed, light, points per pixel side.
 
-    ``limit``: of the error as image L2, relative to the picture. ``half``: floats of 16 bits.
+    ``limit``: the greatest error as image L2, relative to the picture. ``half``: 16-bit floats.
     """
 
     name: str
@@ -80,7 +82,7 @@ class Case:
     half: bool = False
 
     def metadata(self) -> dict[str, str]:
-        """What the file's header says, so that the picture can be made again."""
+        """The file's header, from which the picture can be made again."""
         material = self.surface.material
         if isinstance(material, Conductor):
             made_of = {"fresnel": repr(material.fresnel)}
@@ -119,8 +121,8 @@ def _case(
 ) -> Case:
     """A case named after its surface.
 
-    16 points a pixel leave at most 0.1 % of the picture (measured on the first bounce against 576
-    points); the back-lit ones for which they would leave 0.2 % take 64 (GGX, alpha 1: 0.14 %).
+    16 points per pixel leave an error of at most 0.1 % of the picture (measured on the first bounce
+    against 576 points). Back-lit cases with 0.2 % take 64 points (GGX, alpha 1: 0.14 %).
     """
     alpha = "_".join(f"{a:g}" for a in dict.fromkeys(widths))
     parts = [start, distribution.lower(), alpha]

@@ -2,9 +2,9 @@
 """Makes the reference pictures: ``python -m osl.oracle.references``.
 
 Each file holds the layers ``mean`` (R, G, B), ``error`` (its standard error), ``single`` (first
-bounce alone; not in the furnace) and ``mask``, with the case in its metadata. The walks per point
-of a case are chosen so that the error, as image L2, is at most `Case.limit` of the picture's. The
-cases are listed in reference_cases.py.
+bounce alone; not in the furnace) and ``mask``, with the case in its metadata. A
+case has enough walks per point that the error, as image L2, is at most `Case.limit` of the
+picture. reference_cases.py lists the cases.
 """
 
 import argparse
@@ -33,8 +33,11 @@ def relative_error(picture: dict[str, np.ndarray]) -> float:
 def render(
     case: Case, quick: bool = False, show: bool = False, rows: Sequence[int] | None = None
 ) -> dict[str, np.ndarray]:
-    """Layers of a case; ``quick`` takes a sixteenth of its walks (2 at least); ``show`` a bar;
-    ``rows`` renders these alone."""
+    """The layers of a case.
+
+    ``quick`` takes a sixteenth of its walks (2 at least), ``show`` shows a progress bar, and
+    ``rows`` renders these rows alone.
+    """
     walks = max(2, case.walks // 16) if quick else case.walks
 
     def bar(every: Sequence[int]) -> tqdm:
@@ -47,7 +50,7 @@ def render(
 
 
 def _note_in_manifest(folder: Path, case: Case, path: Path, error: float) -> None:
-    """Keep the list of files with their checksums, in the order of `CASES`."""
+    """Note the file and its checksum in the manifest, in the order of `CASES`."""
     manifest = folder / "manifest.json"
     entries = json.loads(manifest.read_text()) if manifest.exists() else {}
     entries[case.name] = {
@@ -61,7 +64,7 @@ def _note_in_manifest(folder: Path, case: Case, path: Path, error: float) -> Non
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line; returns the exit code, 1 when a picture misses its accuracy."""
+    """Run the command line; returns the exit code, 1 if a picture misses its accuracy."""
     parser = argparse.ArgumentParser(prog=COMMAND, description="Make the reference pictures.")
     parser.add_argument(
         "--case",

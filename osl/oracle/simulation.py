@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Light that bounces on a height field: the surface that the models stand for.
 
-Nothing of Smith's theory is used here. Rays start evenly spread on a plane above the sheet, are
-scattered by the material at every facet they hit, and leave when they pass the highest point
-upwards or the lowest point downwards. The sheet is periodic: a ray that reaches its side goes on
-from the opposite one. Rays that the tracer loses are dropped and counted (ray_tracer.py).
+Nothing here uses Smith's theory. Rays start evenly spread on a plane above the sheet. The material
+scatters them at every facet they hit. They leave when they pass the highest point upwards or the
+lowest point downwards. The sheet is periodic, so a ray that reaches its side goes on from the
+opposite one. Rays that the tracer loses are dropped and counted (ray_tracer.py).
 """
 
 import math
@@ -26,9 +26,9 @@ from .vectors import outside, to_common, to_side
 class Hit(Bounce):
     """One bounce of the ``n`` rays that met the sheet once more.
 
-    Besides `Bounce`: ``weight`` ``(n, C)`` after the bounce; ``left``, ``lost`` ``(n,)``: rays that
-    leave now, and rays dropped on their way to the next bounce; all others go on. ``dropped``:
-    number of rays dropped so far, these included.
+    Besides `Bounce`: ``weight`` ``(n, C)`` after the bounce. ``left`` ``(n,)``: rays that leave
+    now; ``lost`` ``(n,)``: rays dropped on their way to the next bounce; all others go on.
+    ``dropped``: number of rays dropped so far, these included.
     """
 
     weight: np.ndarray
@@ -62,12 +62,12 @@ def simulate(
     rays: int = 100_000,
     rng: np.random.Generator | int = 0,
 ) -> Iterator[Hit]:
-    """Trace rays that come from ``wi`` ``(3,)``, above the surface or, where the material
-    transmits, below; yields bounce 1, 2, ... until ``max_bounces``, or until no ray is left.
+    """Bounce 1, 2, ... of rays from ``wi`` ``(3,)``, until ``max_bounces`` or until no ray is left.
 
-    ``rng`` a Generator or a seed. Raises ``ValueError`` for a direction that is not such a unit
-    vector, and for counts that are too small; ``TypeError`` for counts that are no whole numbers,
-    and for anything but a `Tracer`.
+    ``wi`` is above the surface, or on either side if the material transmits. ``rng`` a Generator or
+    a seed. Raises ``ValueError`` for a direction that is not such a unit vector, and for counts
+    that are too small; ``TypeError`` for counts that are not whole numbers, and for anything but a
+    `Tracer`.
     """
     if not isinstance(tracer, Tracer):
         raise TypeError(f"tracer is a {type(tracer).__name__}; give a Tracer of a HeightField")
@@ -117,10 +117,10 @@ def simulated_energies(
 ) -> SimulatedEnergies:
     """Energy that leaves at each bounce of rays from ``wi`` ``(..., 3)``, mean over height fields.
 
-    ``tracers``: of at least two independent fields of one kind; of a generator, one at a time is
-    held. ``rays`` per field and direction. Variances come from the scatter of the fields, which
-    limits the accuracy more than the number of rays. Errors as in `simulate`; ``ValueError`` also
-    for no direction at all, and for a tracer that is given twice.
+    ``tracers``: at least two independent fields of one kind; a generator's are held one at a time.
+    ``rays`` per field and direction. Variances come from the scatter of the fields, which limits
+    the accuracy more than the number of rays. Errors as in `simulate`; ``ValueError`` also for no
+    direction at all, and for a tracer that is given twice.
     """
     wi = outside(wi, "wi", material.transmits)
     if wi.size == 0:
@@ -164,10 +164,10 @@ def simulated_energies(
 
 
 def _distinct(tracers: Iterable[Tracer]) -> Iterator[Tracer]:
-    """The tracers, one at a time; ``ValueError`` for one that has been before."""
+    """The tracers, one at a time; ``ValueError`` for one that came before."""
     if isinstance(tracers, Tracer | HeightField):
         raise TypeError(f"tracers is a {type(tracers).__name__}; give 2 Tracers or more")
-    before: WeakSet[Tracer] = WeakSet()  # which does not keep them
+    before: WeakSet[Tracer] = WeakSet()  # weak, so that each one is freed after use
     for number, tracer in enumerate(tracers):
         if isinstance(tracer, Tracer):  # `simulate` names what is not
             if tracer in before:

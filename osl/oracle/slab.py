@@ -2,8 +2,8 @@
 """The view of one rough side of a slab, shared with scenes/slab_dielectric.blend.
 
 The plane z = 0, its normal +Z, under a sun that shines up through it. A perspective camera looks
-down on it; its picture spans 50 degrees, and the plane fills it. So the direction to the viewer
-changes from pixel to pixel, while frame and sun do not.
+down on it; its picture spans 50 degrees, and the plane fills it. Only the direction
+to the viewer changes from pixel to pixel; frame and sun stay.
 """
 
 import numpy as np

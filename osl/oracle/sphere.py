@@ -13,7 +13,7 @@ from .vectors import normalize, vector
 from .view import RESOLUTION, SUBSAMPLES, Axes, View, pixel_grid
 
 CAMERA_WIDTH = 2.1
-MASK_RADIUS = 0.985  # pixels that reach farther out see too steep a part of the sphere
+MASK_RADIUS = 0.985  # pixels farther out see too steep a part of the sphere
 VIEW_DIRECTION = np.array([0.0, -1.0, 0.0])  # towards the viewer
 FRONT_SUN = normalize(np.array([0.6, -0.72, 0.35]))  # towards the light
 BACK_SUN = normalize(np.array([0.45, 0.85, 0.25]))
@@ -22,8 +22,11 @@ BACK_SUN = normalize(np.array([0.45, 0.85, 0.25]))
 def view(
     resolution: int = RESOLUTION, subsamples: int = SUBSAMPLES, inside_out: bool = False
 ) -> View:
-    """The sphere as the camera sees it; ``inside_out``: its normals point to its centre, so that
-    the camera is inside the solid and ``wi`` below the surface."""
+    """The sphere as the camera sees it.
+
+    ``inside_out``: its normals point to its centre, so the camera is inside the solid and ``wi`` is
+    below the surface.
+    """
     points, mask = sphere_points(resolution, subsamples)
     axes = local_frames(-points if inside_out else points)
     return View(axes, np.broadcast_to(VIEW_DIRECTION, points.shape), mask)
@@ -49,9 +52,9 @@ def sphere_points(
 def local_frames(normal: np.ndarray) -> Axes:
     """Axes x, y, z ``(..., 3)`` of the shading frame where the sphere's normal is ``normal``.
 
-    As in Cycles where no tangent is linked: the tangent runs around the object's Z axis, (-y, x, 0)
-    from generated coordinates, made perpendicular to the normal; y = cross(z, x). At the poles it
-    is not defined; the mask keeps them out of the picture.
+    As in Cycles without a linked tangent: the tangent runs around the object's Z axis, (-y, x, 0)
+    from generated coordinates, made perpendicular to the normal; y = cross(z, x). It is undefined
+    at the poles, which the mask keeps out of the picture.
     """
     normal = np.asarray(normal, dtype=np.float64)
     around = vector(-normal[..., 1], normal[..., 0], np.zeros(normal.shape[:-1]))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a rough surface is: widths and name of its NDF, its material, and the model of its walk."""
+"""A rough surface: the alphas and the name of its NDF, its material, and the model of its walk."""
 
 from dataclasses import dataclass, field
 
@@ -25,7 +25,7 @@ class Surface:
     ``alpha_x``, ``alpha_y``: widths of the NDF along x and y, 1e-8 to 1e8. ``distribution``:
     ``GGX`` or ``BECKMANN``. ``material``: what its facets are made of, by default a lossless
     conductor. ``model``: ``CORRELATED``, ``UNCORRELATED`` or ``HEIGHT_TRACKED``.
-    Raises ``ValueError`` for any other value and ``TypeError`` for widths that are no numbers.
+    Raises ``ValueError`` for any other value and ``TypeError`` for widths that are not numbers.
     """
 
     alpha_x: float

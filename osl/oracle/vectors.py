@@ -9,7 +9,7 @@ UNIT_TOLERANCE = 1e-6  # single-precision directions are accepted as unit vector
 def vector(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Vectors ``(..., 3)`` from their components.
 
-    Each component stays contiguous in memory, which makes componentwise arithmetic twice as fast.
+    Each component is contiguous in memory, which makes componentwise arithmetic twice as fast.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     return np.moveaxis(np.stack([x, y, z], axis=0), 0, -1)
@@ -29,8 +29,8 @@ def normalize(w: np.ndarray) -> np.ndarray:
 def half_vector(v: np.ndarray, o: np.ndarray) -> np.ndarray:
     """Unit vectors midway between unit vectors ``v`` and ``o``.
 
-    Opposite directions have no half vector; they give the zero vector, whose D is 0. That is the
-    right limit, because such a micronormal lies in the plane perpendicular to both.
+    Opposite directions have no half vector, and give the zero vector, whose D is 0. That is the
+    right limit, because such a micronormal would lie in the plane perpendicular to both.
     """
     return normalize(v + o)
 
@@ -58,8 +58,10 @@ def unit_vectors(w: np.ndarray, name: str) -> np.ndarray:
 
 
 def outside(w: np.ndarray, name: str, transmits: bool = False) -> np.ndarray:
-    """``w`` as unit vectors that point away from the surface: ``w.z > 0``, or where the surface
-    ``transmits`` ``w.z != 0``; ``ValueError`` names the first that does not."""
+    """``w`` as unit vectors that point away from the surface; else ``ValueError`` names one.
+
+    That is ``w.z > 0``, or ``w.z != 0`` if the surface ``transmits``.
+    """
     w = unit_vectors(w, name)
     bad = (w[..., 2] == 0.0) if transmits else ~(w[..., 2] > 0.0)
     if np.any(bad):

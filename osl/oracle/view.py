@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pixels of a picture see: points of a surface, their shading frames, and the viewer.
+"""What a picture's pixels see: points of a surface, their shading frames, and the viewer.
 
 Pictures are arrays ``(rows, columns, ...)``, top row first. A pixel is the mean over a square grid
 of midpoints (box filter, one pixel wide).
@@ -37,14 +37,16 @@ class View:
         return to_local(self.viewer[here], axes), axes
 
     def lit_from_above(self, sun: np.ndarray) -> "View":
-        """The view of those pixels alone that face the ``sun`` ``(3,)`` with all their points."""
+        """The view of only those pixels whose points all face the ``sun`` ``(3,)``."""
         facing = (dot(self.axes[2], sun) > 0.0).all(axis=-1)
         return replace(self, mask=self.mask & facing)
 
 
 def pixel_grid(resolution: int, subsamples: int, width: float) -> tuple[np.ndarray, np.ndarray]:
-    """Places in a square picture of this ``width`` around 0: to the right ``(1, columns, 1, s)``
-    and up ``(rows, 1, s, 1)``, which broadcast to the midpoints of each pixel."""
+    """Coordinates of each pixel's midpoints in a square picture of this ``width``, centred on 0.
+
+    To the right ``(1, columns, 1, s)`` and up ``(rows, 1, s, 1)``, which broadcast.
+    """
     count = resolution * subsamples
     line = ((np.arange(count) + 0.5) / count - 0.5) * width
     line = line.reshape(resolution, subsamples)

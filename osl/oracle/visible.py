@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sampling micronormals from Dvis(v, .), for v above or below the horizon.
 
-GGX: spherical caps (Dupuy, Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"),
-which hold on the full sphere. Beckmann: the surface is stretched to alpha = 1, where the slope
-across v is Gaussian and the slope x along v has density (a - x) exp(-x^2) for x < a, with a the
-cotangent of v's angle (Heitz, d'Eon 2014). The walk draws x by rejection, which is exact;
-`from_uniforms` inverts its distribution function to the last digits, for comparison with other
-samplers point by point.
+GGX takes spherical caps, which hold on the full sphere (Dupuy, Benyoub 2023, "Sampling Visible GGX
+Normals with Spherical Caps"). Beckmann is stretched to alpha = 1. Then the slope across v is
+Gaussian, and the slope x along v has density (a - x) exp(-x^2) for x < a. a is the cotangent of v's
+angle (Heitz, d'Eon 2014). The walk draws x by rejection, which is exact. `from_uniforms` inverts
+its distribution function to the last digits, so that samplers can be compared point by point.
 """
 
 import numpy as np
@@ -63,7 +62,7 @@ def _stretch(v: np.ndarray, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
     """Azimuth of v in the stretched frame as a unit vector ``(n, 2)``, and v's cotangent."""
     x, y = surface.alpha_x * v[:, 0], surface.alpha_y * v[:, 1]
     t = np.hypot(x, y)
-    # straight up or down: any azimuth will do, and the cotangent's cap leaves a pure Gaussian
+    # straight up or down any azimuth will do; the capped cotangent leaves a pure Gaussian
     straight = t < 1e-150
     safe = np.where(straight, 1.0, t)
     azimuth = np.stack([np.where(straight, 1.0, x / safe), np.where(straight, 0.0, y / safe)])
@@ -129,11 +128,11 @@ def slope_distribution(a: np.ndarray, x: np.ndarray) -> np.ndarray:
 def slope_along(a: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Slope x < a whose distribution function is ``u`` in (0, 1), by bisection to the last bit.
 
-    The unknown is x for a > 0 and y = a - x for a <= 0, so that neither loses digits to the other.
+    The unknown is x for a > 0 and y = a - x for a <= 0, so no digits are lost.
     """
     a, u = np.broadcast_arrays(np.asarray(a, float), np.asarray(u, float))
     up, depth = np.maximum(a, 0.0), np.maximum(-a, 0.0)
-    # exp(-40^2) is far below the smallest double, and so is exp(-y (y + 2 |a|)) at the last bound
+    # exp(-40^2) is far below the smallest double, and so is exp(-y (y + 2 |a|)) at the upper bound
     low = np.where(a > 0.0, -40.0, 0.0)
     high = np.where(a > 0.0, np.minimum(a, 40.0), 1600.0 / (40.0 + depth))
     for _ in range(75):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The random walk inside the microgeometry, and the value of a walk towards a given direction.
 
-At a vertex the path arrives from v, meets a micronormal m drawn from Dvis(v, .), and turns to o as
-the facet's material has it. It leaves with the chance p_exit of its model (masking.py), 0 below the
-horizon. Otherwise the next vertex is met from v' = -o. A path carries the chance of having stayed
-as part of its weight; light paths are thinned by Russian roulette.
+At a vertex the path arrives from v and meets a micronormal m drawn from Dvis(v, .). The facet's
+material turns it to o. It leaves with the chance p_exit of its model (masking.py), which is 0 below
+the horizon. Otherwise it meets the next vertex from v' = -o. Its weight contains the chance of
+having stayed. Russian roulette thins light paths.
 
 On each side of the surface directions are those of its own frame (materials.py): below, the common
 frame with all directions negated.
@@ -61,8 +61,7 @@ def bounces(
     rng: np.random.Generator,
     roulette: float = ROULETTE,
 ) -> Iterator[Vertex]:
-    """Walk from each of ``wi`` ``(n, 3)``, on either side of a surface that transmits; yields
-    bounce 1, 2, ... until ``max_bounces``, or until no walk is alive.
+    """Bounce 1, 2, ... of walks from each ``wi`` ``(n, 3)``, until ``max_bounces`` or all ended.
 
     ``roulette``, 0 to 1: 0 ends only walks whose weight is 0. Raises ``ValueError`` for directions
     that are not unit vectors above the surface (either side of it where it transmits), and for
@@ -119,11 +118,11 @@ def turn_and_leave(
 ) -> np.ndarray:
     """Density per steradian of turning from ``v`` to ``o`` and leaving, ``(..., C)``.
 
-    ``v`` and ``o`` in the frames of their sides; ``area_v`` = sigma(v) where it is known. Where the
-    facets are smooth, this is the vertex term over sigma(v), times p_exit; for a mirror
-    F D(h) / (4 sigma(v)) p_exit. Where they are not, it is the density at the facet ``m``, whose
-    mean over Dvis(v, .) is meant. The height-tracked model takes the height on arrival, ``log_u``.
-    ``ValueError`` for a dielectric of IOR 1.
+    ``v`` and ``o`` in the frames of their sides; ``area_v`` = sigma(v) if it is known. For smooth
+    facets this is the vertex term over sigma(v), times p_exit. A mirror has
+    F D(h) / (4 sigma(v)) p_exit. For rough ones it is the density at the facet ``m``, and the
+    caller takes the mean over Dvis(v, .). The height-tracked model takes the height on arrival,
+    ``log_u``. ``ValueError`` for a dielectric of IOR 1.
     """
     v, o = np.broadcast_arrays(np.asarray(v, float), np.asarray(o, float))
     below, crossed = np.broadcast_to(below, v.shape[:-1]), np.broadcast_to(crossed, v.shape[:-1])
@@ -139,10 +138,10 @@ def turn_and_leave(
 
 
 def first_bounce(wi: np.ndarray, wo: np.ndarray, surface: Surface) -> np.ndarray:
-    """Single-bounce BSDF times |cos(wo)| where facets are smooth, ``(..., 3)``, per steradian.
+    """Single-bounce BSDF times |cos(wo)| of smooth facets, ``(..., 3)``, per steradian.
 
     For a mirror F D G2 / (4 |cos i|). ``wi`` and ``wo`` broadcast; they point away from the
-    surface, and only where it transmits they may lie below it. The mean over heights of the
+    surface, and may lie below it only if it transmits. The mean over heights of the
     height-tracked model is the height-correlated one (eq. 15). ``ValueError`` for other directions,
     for rough facets, which have no closed form, and for a dielectric of IOR 1.
     """
