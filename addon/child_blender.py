@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender of its own that runs a script of ours, beside the one that is open."""
+"""Another Blender that runs a module of ours, beside the one that is open."""
 
 import os
 import subprocess
@@ -9,24 +9,24 @@ from pathlib import Path
 
 import bpy
 
-# That it has to end by itself: it may be at work where it cannot see that it should.
+# Time to end by itself; it may be at work where it does not notice that it should.
 _END_SECONDS = 0.5
 
 
 class ChildBlender:
     """The process; close() it whatever happens, or use it with `with`.
 
-    Its standard input stays open as long as it is wanted: a script can end when that closes, as it
-    does where the Blender that started it crashes.
+    It ends when its standard input closes, also if the Blender that started it crashes.
     """
 
-    def __init__(self, script: Path, arguments: Sequence[str], folder: Path) -> None:
-        """Start `script`; what follows "--" in its sys.argv are the `arguments`.
+    def __init__(self, module: str, arguments: Sequence[str], folder: Path) -> None:
+        """Start it and call run(*arguments) of a module of the extension, such as "cost.measure".
 
-        `folder` must not be there yet. It takes what the process prints, and stands for the user's
-        files: there are neither preferences nor installed extensions. Raises OSError where the
+        `folder` must not exist yet. It takes what the process prints, and stands for the user's
+        files: there are neither preferences nor installed extensions. Raises OSError if the
         process or the folder cannot be made.
         """
+        script = str(Path(__file__).with_name("child_start.py"))
         if bpy.app.binary_path:
             command = [bpy.app.binary_path, "--background", "--factory-startup", "--python"]
         else:  # Blender as a Python module; -P keeps the script's folder from hiding Python's own
@@ -35,7 +35,7 @@ class ChildBlender:
         self._errors = folder / "errors"
         with open(folder / "log", "wb") as log, open(self._errors, "wb") as errors:
             self._process = subprocess.Popen(
-                [*command, str(script), "--", *arguments],
+                [*command, script, "--", module, *arguments],
                 env=_environment(folder),
                 stdin=subprocess.PIPE,
                 stdout=log,

@@ -70,7 +70,7 @@ def _step(option: Option, share: float) -> dict[str, object]:
 
 
 @dataclass(frozen=True)
-class Report:
+class Analysis:
     """The analysis of a scene: the rows by falling share.
 
     has_camera -- False where the shares could not be found and all materials weigh the same
@@ -137,7 +137,7 @@ def analyse(
     tolerance: float,
     progress: Callable[[float], None] = lambda part: None,
     seconds: float = math.inf,
-) -> Report:
+) -> Analysis:
     """Analyse the scene of `context` and return what is proposed; nothing is changed.
 
     tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
@@ -150,7 +150,7 @@ def analyse(
 
 def analysis_pieces(
     context: bpy.types.Context, tolerance: float, seconds: float = math.inf
-) -> Pieces[Report]:
+) -> Pieces[Analysis]:
     """Do the work of analyse(); nothing of the scene may change meanwhile."""
     if not 0.0 < tolerance <= 1.0:
         raise ValueError(f"The tolerance is {tolerance:g}: give a number above 0, at most 1")
@@ -172,18 +172,18 @@ def analysis_pieces(
     name = context.scene.name
     unread = frozenset(sources.unread)
     camera = shares.has_camera
-    return Report(name, tolerance, tuple(rows), camera, shares.part, shares.empty, unread)
+    return Analysis(name, tolerance, tuple(rows), camera, shares.part, shares.empty, unread)
 
 
-def apply(context: bpy.types.Context, report: Report) -> tuple[list[str], list[str]]:
-    """Set what `report` proposes; return the names of what was set and of what was left.
+def apply_analysis(context: bpy.types.Context, analysis: Analysis) -> tuple[list[str], list[str]]:
+    """Set what `analysis` proposes; return the names of what was set and of what was left.
 
     What has changed since is left: what is gone, cannot be set, or would be another surface.
     """
     found = {one.key: one for one in found_nodes(shown_materials(context))}
-    sources = Sources(unread=report.unread)
+    sources = Sources(unread=analysis.unread)
     done, left = [], []
-    for row in report.changes:
+    for row in analysis.changes:
         one = found.get(row.key)
         if one is None or not _is_still(row, one, sources):
             left.append(row.name)

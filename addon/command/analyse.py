@@ -5,7 +5,7 @@ import argparse
 
 import bpy
 
-from ..analysis.analyse import Report, analyse
+from ..analysis.analyse import Analysis, analyse
 from ..core.analysis.picture_error import DEFAULT_TOLERANCE, percent
 from ..core.analysis.proposal import Option
 from .files import add_file_argument, open_file
@@ -39,12 +39,12 @@ def add_tolerance_argument(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print the table; 1 where a change is proposed or no choice is enough, else 0."""
     path = open_file(arguments)
-    report = analysed(arguments)
-    emit(arguments, {"file": str(path)} | report.as_dict(), "\n".join(table(report)))
-    return 1 if report.changes or not report.within_tolerance else 0
+    analysis = analysed(arguments)
+    emit(arguments, {"file": str(path)} | analysis.as_dict(), "\n".join(table(analysis)))
+    return 1 if analysis.changes or not analysis.within_tolerance else 0
 
 
-def analysed(arguments: argparse.Namespace) -> Report:
+def analysed(arguments: argparse.Namespace) -> Analysis:
     """Return the analysis of the open scene; raises CommandError for a bad tolerance."""
     try:
         return analyse(bpy.context, arguments.tolerance)
@@ -52,12 +52,12 @@ def analysed(arguments: argparse.Namespace) -> Report:
         raise CommandError(str(error)) from error
 
 
-def table(report: Report) -> list[str]:
+def table(analysis: Analysis) -> list[str]:
     """Return the lines of the table for people."""
-    if not report.rows:
+    if not analysis.rows:
         return ["No object of the scene shows a Microbounce material"]
-    lines = [] if report.has_camera else ["There is no camera to find shares: all are equal"]
-    for row in report.rows:
+    lines = [] if analysis.has_camera else ["There is no camera to find shares: all are equal"]
+    for row in analysis.rows:
         one = row.proposal
         change = f"{one.now} to {one.then}" if one.changes else f"{one.now}, stays"
         lines.append(f"{row.name} ({percent(one.share)} of the picture): {change}")
@@ -65,13 +65,13 @@ def table(report: Report) -> list[str]:
         lines += [f"    {text}" for text in (one.reason, *row.notes)]
         lines += [f"        {_step(option)}" for option in one.steps]
     lines.append(
-        f"Picture: off by {percent(report.error_now)}, then {percent(report.error_then)}; "
-        f"time of a sample {report.time_ratio:.2f} times that of now"
+        f"Picture: off by {percent(analysis.error_now)}, then {percent(analysis.error_then)}; "
+        f"time of a sample {analysis.time_ratio:.2f} times that of now"
     )
-    if not report.within_tolerance:
+    if not analysis.within_tolerance:
         lines.append(
-            f"No choice of steps is within the tolerance of {percent(report.tolerance)}: "
-            f"{percent(report.error_then)} are left"
+            f"No choice of steps is within the tolerance of {percent(analysis.tolerance)}: "
+            f"{percent(analysis.error_then)} are left"
         )
     return lines
 

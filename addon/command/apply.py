@@ -5,7 +5,7 @@ import argparse
 
 import bpy
 
-from ..analysis.analyse import apply
+from ..analysis.analyse import apply_analysis
 from .analyse import add_tolerance_argument, analysed, table
 from .files import add_file_argument, add_save_arguments, check_target, open_file, save_file, saved
 from .output import emit
@@ -32,12 +32,12 @@ def run(arguments: argparse.Namespace) -> int:
     """
     check_target(arguments)
     path = open_file(arguments)
-    report = analysed(arguments)
-    done, left = apply(bpy.context, report)
+    analysis = analysed(arguments)
+    done, left = apply_analysis(bpy.context, analysis)
     target = save_file(arguments)
-    lines = [*table(report), f"{len(done)} materials set"]
+    lines = [*table(analysis), f"{len(done)} materials set"]
     lines += [f"Changed since the analysis and left: {', '.join(left)}"] if left else []
     lines.append(saved(target))
-    data = {"file": str(path), "saved": target, "set": done, "left": left} | report.as_dict()
+    data = {"file": str(path), "saved": target, "set": done, "left": left} | analysis.as_dict()
     emit(arguments, data, "\n".join(lines))
-    return 0 if report.within_tolerance and not left else 1
+    return 0 if analysis.within_tolerance and not left else 1

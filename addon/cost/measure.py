@@ -14,7 +14,7 @@ from ..core.cost.advice import recommendation
 from ..core.cost.page import to_html
 from ..core.cost.plan import REFERENCE_FACTOR, Options, Variant, planned_variants, reference_variant
 from ..core.cost.plot import draw_plot, svg
-from ..core.cost.results import TOO_SHORT, Cost, Measured, Report, Setting
+from ..core.cost.results import TOO_SHORT, Cost, CostReport, Measured, Setting
 from ..core.cost.statistics import reference_noise, split_error
 from ..core.cost.tables import to_csv, to_json, to_text
 from .page_pictures import PagePictures
@@ -33,8 +33,9 @@ _FILES = {
 }
 
 
-def measure_job(path: Path) -> None:
-    """Do the job in the JSON file `path`, telling how far it is in `progress` beside it."""
+def run(job_file: str) -> None:
+    """Do the job in a JSON file, and tell how far it is in the file `progress` beside it."""
+    path = Path(job_file)
     job = json.loads(path.read_text("utf-8"))
     options = Options.from_dict(job["options"])
     progress = path.with_name("progress")
@@ -150,7 +151,7 @@ def _write(
 ) -> None:
     files = {kind: str(Path(folder, name)) for kind, name in _FILES.items()}
     sentence = recommendation(measured, setting.error)
-    report = Report(setting, tuple(measured), sentence, files)
+    report = CostReport(setting, tuple(measured), sentence, files)
     contents = {
         "page": to_html(report, pictures.drawn).encode(),
         "csv": to_csv(report).encode(),

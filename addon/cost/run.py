@@ -40,7 +40,7 @@ class CostRun:
         `output` is the folder for the reports, where "//" means beside the file. `unchanged` says
         that the scene is as it is in the file, also where Blender does not know. Raises CostError.
         """
-        check_scene(scene)
+        _need_measurable(scene)
         folder = output_folder(output)
         kept = cache_file(scene, layer.name, options, unchanged)
         notes = _notes(scene, layer, options, kept)
@@ -88,7 +88,7 @@ class CostRun:
             return Progress()
 
     def result(self) -> dict[str, object]:
-        """Return the report, as Report.as_dict() has it, once it does not run any more.
+        """Return the report, as CostReport.as_dict() has it, once it does not run any more.
 
         Raises CostError where it failed.
         """
@@ -106,9 +106,8 @@ class CostRun:
     def _start(self, job: dict[str, object]) -> None:
         path = self._folder / "job.json"
         path.write_text(json.dumps(job), "utf-8")
-        script = Path(__file__).with_name("child.py")
         try:
-            self._child = ChildBlender(script, [str(path)], self._folder / "user")
+            self._child = ChildBlender("cost.measure", [str(path)], self._folder / "user")
         except OSError as error:
             raise CostError(f"The other Blender does not start: {error}") from error
 
@@ -129,8 +128,8 @@ def measure(
         return wait_for(run, tell)
 
 
-def check_scene(scene: bpy.types.Scene) -> None:
-    """Raise CostError where nothing can be measured in a scene."""
+def _need_measurable(scene: bpy.types.Scene) -> None:
+    """Raise CostError if nothing can be measured in a scene."""
     if not osl_compiler_available():
         raise CostError(
             "This Blender was built without Open Shading Language: use one from blender.org"

@@ -73,14 +73,13 @@ class ProofRun:
 
         Raises ProofError where none can begin.
         """
-        extension = str(Path(__file__).resolve().parents[1])
         self._path, self._limit = path, time_limit
         self._begin = time.monotonic()
         try:
             self._folder = Path(tempfile.mkdtemp(prefix="microbounce_"))
         except OSError as error:
             raise ProofError(f"No folder for temporary files: {error}. Make room") from error
-        self._waiting = [("with the extension", extension), ("without the extension", "")]
+        self._waiting = ["with", "without"]
         self._child: ChildBlender | None = None
         try:
             self._start_next()
@@ -104,13 +103,13 @@ class ProofRun:
         if self._child.running:
             if time.monotonic() - self._child_begin > self._limit:
                 raise ProofError(
-                    f"The render {self._who} took longer than {self._limit:g} seconds: allow "
-                    "more, or hide what is heavy"
+                    f"The render {self._which} the extension took longer than {self._limit:g} "
+                    "seconds: allow more, or hide what is heavy"
                 )
             return True
         reason = self._child.failure()
         if reason:
-            raise ProofError(f"The render {self._who} failed: {reason}")
+            raise ProofError(f"The render {self._which} the extension failed: {reason}")
         if not self._waiting:
             return False
         self._start_next()
@@ -119,7 +118,7 @@ class ProofRun:
     def progress(self) -> Progress:
         """Return how far it is."""
         number = 2 - len(self._waiting)
-        return Progress((number - 1) / 2, f"Rendering {self._who} ({number} of 2)")
+        return Progress((number - 1) / 2, f"Rendering {self._which} the extension ({number} of 2)")
 
     def result(self) -> Proof:
         """Compare the pictures, once nothing is under way."""
@@ -144,14 +143,15 @@ class ProofRun:
         if self._child is not None:
             self._child.close()
         number = 3 - len(self._waiting)
-        self._who, extension = self._waiting.pop(0)
+        self._which = self._waiting.pop(0)
         self._child_begin = time.monotonic()
-        arguments = [str(self._path), str(self._folder / str(number)), extension]
-        script = Path(__file__).with_name("child.py")
+        arguments = [str(self._path), str(self._folder / str(number)), self._which]
+        folder = self._folder / f"user_{number}"
         try:
-            self._child = ChildBlender(script, arguments, self._folder / f"user_{number}")
+            self._child = ChildBlender("farm.small_render", arguments, folder)
         except OSError as error:
-            raise ProofError(f"The Blender {self._who} does not start: {error}") from error
+            reason = f"The Blender {self._which} the extension does not start: {error}"
+            raise ProofError(reason) from error
 
 
 def prove(

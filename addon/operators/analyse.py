@@ -14,21 +14,21 @@ from .redraw import redraw_panels
 
 # What does the work is imported when it is called: a start of Blender pays nothing for it.
 if TYPE_CHECKING:
-    from ..analysis.analyse import Report
+    from ..analysis.analyse import Analysis
 
 # What images and the shares of the picture may take, so that no scene holds Blender up for long.
 _SECONDS = 5.0
 
 # The last analysis, with the file to which it belongs; nothing of it is stored in the file.
-_kept: "tuple[str, Report] | None" = None
+_kept: "tuple[str, Analysis] | None" = None
 
 
-def last_report(context: bpy.types.Context) -> "Report | None":
+def last_analysis(context: bpy.types.Context) -> "Analysis | None":
     """Return the last analysis of the context's scene, None where there is none."""
     if _kept is None:
         return None
-    path, report = _kept
-    return report if (path, report.scene) == (bpy.data.filepath, context.scene.name) else None
+    path, analysis = _kept
+    return analysis if (path, analysis.scene) == (bpy.data.filepath, context.scene.name) else None
 
 
 class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
@@ -71,7 +71,7 @@ class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
         """Analyse the scene, and wait for the end."""
         return self.wait(context)
 
-    def start(self, context: bpy.types.Context) -> "PiecewiseRun[Report]":
+    def start(self, context: bpy.types.Context) -> "PiecewiseRun[Analysis]":
         """Begin to analyse."""
         from ..analysis.analyse import analysis_pieces
 
@@ -79,22 +79,22 @@ class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
         tolerance = self.tolerance if given else preferences(context).tolerance
         return PiecewiseRun(analysis_pieces(context, tolerance, _SECONDS))
 
-    def finish(self, context: bpy.types.Context, report: "Report") -> set[str]:
-        """Keep the table for the panels, and report how many materials could change."""
+    def finish(self, context: bpy.types.Context, analysis: "Analysis") -> set[str]:
+        """Keep the table for the panels, and analysis how many materials could change."""
         global _kept
-        _kept = (bpy.data.filepath, report)
+        _kept = (bpy.data.filepath, analysis)
         redraw_panels(context)
-        if not report.rows:
+        if not analysis.rows:
             self.report({"WARNING"}, "No object of the scene shows a Microbounce material")
             return {"FINISHED"}
-        count = len(report.changes)
+        count = len(analysis.changes)
         self.report(
             {"INFO"},
             message(
                 "{count} of {all} materials could change; the picture would be {error} off",
                 count=count,
-                all=len(report.rows),
-                error=percent(report.error_then),
+                all=len(analysis.rows),
+                error=percent(analysis.error_then),
             ),
         )
         return {"FINISHED"}
@@ -111,20 +111,20 @@ class MICROBOUNCE_OT_apply_analysis(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow it after an analysis that proposes something; say why otherwise."""
-        report = last_report(context)
-        if report is None:
+        analysis = last_analysis(context)
+        if analysis is None:
             cls.poll_message_set("There is no analysis of this scene: press Analyse Materials")
             return False
-        if not report.changes:
+        if not analysis.changes:
             cls.poll_message_set("The analysis proposes no change")
             return False
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set the values; name what has changed since the analysis and was left."""
-        from ..analysis.analyse import apply
+        from ..analysis.analyse import apply_analysis
 
-        done, left = apply(context, last_report(context))
+        done, left = apply_analysis(context, last_analysis(context))
         names = ", ".join(left)
         if not done:
             text = "Nothing was set. Changed since the analysis: {names}. Analyse again"

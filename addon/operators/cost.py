@@ -17,11 +17,11 @@ from .redraw import redraw_panels
 if TYPE_CHECKING:
     from ..cost.run import CostRun
 
-# What the last measurement of this session found, as Report.as_dict() has it; None before it.
+# What the last measurement of this session found, as CostReport.as_dict() has it; None before it.
 _last: dict[str, object] | None = None
 
 
-def last_report() -> dict[str, object] | None:
+def last_measurement() -> dict[str, object] | None:
     """Return what the last measurement found, None before the first."""
     return _last
 

@@ -22,7 +22,7 @@ _PROVE = "Also render the saved file small, with and without the extension, and 
 _last: dict[int, tuple[Finding, ...]] = {}
 
 
-def last_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
+def last_farm_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
     """Return what the last check of `scene` found, None where there was none."""
     return _last.get(scene.session_uid)
 

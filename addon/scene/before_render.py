@@ -69,7 +69,7 @@ def remember(scene: bpy.types.Scene, findings: tuple[Finding, ...]) -> bool:
     return changed
 
 
-def last_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
+def last_render_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
     """Return what the last check of `scene` found, None where there was none."""
     return _last.get(scene.session_uid)
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.analysis.picture_error import percent
-from ..operators.analyse import MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis, last_report
+from ..operators.analyse import MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis, last_analysis
 from ..preferences import stored_preferences
 from ..text import label
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_lines
 
 if TYPE_CHECKING:
-    from ..analysis.analyse import Report, Row
+    from ..analysis.analyse import Analysis, Row
 
 # As many rows as a panel shows; what changes comes first.
 _MOST_ROWS = 24
@@ -26,24 +26,26 @@ def draw_analysis(layout: bpy.types.UILayout, context: bpy.types.Context) -> Non
     row = layout.row(align=True)
     row.operator(MICROBOUNCE_OT_analyse.bl_idname)
     row.operator(MICROBOUNCE_OT_apply_analysis.bl_idname)
-    report = last_report(context)
-    if report is not None:
-        _draw_report(layout, context, report)
+    analysis = last_analysis(context)
+    if analysis is not None:
+        _draw_analysis_table(layout, context, analysis)
 
 
-def _draw_report(layout: bpy.types.UILayout, context: bpy.types.Context, report: "Report") -> None:
-    if not report.rows:
+def _draw_analysis_table(
+    layout: bpy.types.UILayout, context: bpy.types.Context, analysis: "Analysis"
+) -> None:
+    if not analysis.rows:
         layout.label(text="No object shows a Microbounce material", icon="INFO")
         return
-    if not report.has_camera:
+    if not analysis.has_camera:
         layout.label(text="Shares are equal: there is no camera to find them", icon="INFO")
-    if report.part < 1.0:
+    if analysis.part < 1.0:
         text = label(
-            "Shares are rough: time was over at {part} of the rays", part=percent(report.part)
+            "Shares are rough: time was over at {part} of the rays", part=percent(analysis.part)
         )
         layout.label(text=text, icon="INFO")
-    changes = report.changes
-    rows = (*changes, *(row for row in report.rows if row not in changes))
+    changes = analysis.changes
+    rows = (*changes, *(row for row in analysis.rows if row not in changes))
     for row in rows[:_MOST_ROWS]:
         _draw_row(layout.box().column(align=True), context, row)
     if len(rows) > _MOST_ROWS:
@@ -52,13 +54,15 @@ def _draw_report(layout: bpy.types.UILayout, context: bpy.types.Context, report:
     column.label(
         text=label(
             "Picture: {now} off, then {then}",
-            now=percent(report.error_now),
-            then=percent(report.error_then),
+            now=percent(analysis.error_now),
+            then=percent(analysis.error_then),
         )
     )
-    if not report.within_tolerance:
+    if not analysis.within_tolerance:
         column.label(text="No choice of steps is within the tolerance", icon="INFO")
-    column.label(text=label("Time of a sample: {ratio:.2f} times today's", ratio=report.time_ratio))
+    column.label(
+        text=label("Time of a sample: {ratio:.2f} times today's", ratio=analysis.time_ratio)
+    )
 
 
 def _draw_row(column: bpy.types.UILayout, context: bpy.types.Context, row: "Row") -> None:

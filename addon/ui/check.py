@@ -4,7 +4,7 @@
 import bpy
 
 from ..operators.check import MICROBOUNCE_OT_check_render
-from ..scene.before_render import last_findings
+from ..scene.before_render import last_render_findings
 from .findings import draw_findings
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
 
@@ -19,7 +19,7 @@ class _CheckPanel:
         """Draw the button and the findings."""
         layout = self.layout
         layout.operator(MICROBOUNCE_OT_check_render.bl_idname, icon="VIEWZOOM")
-        findings = last_findings(context.scene)
+        findings = last_render_findings(context.scene)
         if findings is not None:
             draw_findings(layout, context, findings)
 

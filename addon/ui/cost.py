@@ -11,7 +11,7 @@ from ..operators.cost import (
     MICROBOUNCE_OT_clear_cost_cache,
     MICROBOUNCE_OT_measure_cost,
     MICROBOUNCE_OT_show_cost_plot,
-    last_report,
+    last_measurement,
 )
 from .panels import draw_lines
 
@@ -38,7 +38,7 @@ class MICROBOUNCE_PT_cost(bpy.types.Panel):
             _draw_progress(layout, progress)
         else:
             _draw_button(layout, context.window_manager.microbounce_cost)
-        report = last_report()
+        report = last_measurement()
         if report is not None:
             _draw_report(layout, context, report)
 

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..operators.farm import MICROBOUNCE_OT_check_farm, last_findings
+from ..operators.farm import MICROBOUNCE_OT_check_farm, last_farm_findings
 from .findings import draw_findings
 from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
 
@@ -23,7 +23,7 @@ class _FarmPanel:
             MICROBOUNCE_OT_check_farm.bl_idname, text="Prove by Rendering", icon="RENDER_STILL"
         )
         button.prove = True
-        findings = last_findings(context.scene)
+        findings = last_farm_findings(context.scene)
         if findings is not None:
             draw_findings(layout, context, findings)
 

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 
-from addon.analysis.analyse import analyse, apply
+from addon.analysis.analyse import analyse, apply_analysis
 from addon.analysis.surfaces import found_nodes, read_choice
 from addon.core.analysis.prediction import Choice
 from addon.scene.share import shown_materials
@@ -66,7 +66,7 @@ def test_twenty_materials_of_all_kinds() -> None:
     # The spheres have one size, but some mirror others.
     assert np.ptp(shares) < 0.3 * np.mean(shares)
     assert not any(row.notes for row in first.rows)
-    done, left = apply(bpy.context, first)
+    done, left = apply_analysis(bpy.context, first)
     assert len(done) == len(first.changes)
     assert left == []
     assert analyse(bpy.context, 0.01).changes == ()

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from .page_style import SCRIPT, STYLE
 from .plot import color_of, draw_plot, svg
-from .results import Measured, Report
+from .results import CostReport, Measured
 from .tables import cells, headings, sort_keys
 
 MOST_BYTES = 3_000_000
@@ -33,7 +33,7 @@ class Pictures:
 Drawer = Callable[[int], tuple[bytes, dict[str, Pictures]]]
 
 
-def to_html(report: Report, drawer: Drawer) -> str:
+def to_html(report: CostReport, drawer: Drawer) -> str:
     """Return the page, at most MOST_BYTES long."""
     for width in _WIDTHS:
         page = _page(report, *drawer(width))
@@ -42,7 +42,7 @@ def to_html(report: Report, drawer: Drawer) -> str:
     return page
 
 
-def _page(report: Report, reference: bytes, pictures: dict[str, Pictures]) -> str:
+def _page(report: CostReport, reference: bytes, pictures: dict[str, Pictures]) -> str:
     setting = report.setting
     title = html.escape(f"What accuracy costs: {setting.file}")
     notes = "".join(f"<li>{html.escape(note)}</li>" for note in setting.notes)
@@ -79,7 +79,7 @@ whether the bias is below the target. Click a heading to sort.</p></section>
 """
 
 
-def _table(report: Report) -> str:
+def _table(report: CostReport) -> str:
     heads = "".join(
         f'<th scope="col"><button type="button">{html.escape(head)}</button></th>'
         for head in headings(report)
@@ -97,7 +97,7 @@ def _table(report: Report) -> str:
     return f"<table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
 
 
-def _card(report: Report, variant: Measured, shown: Pictures) -> str:
+def _card(report: CostReport, variant: Measured, shown: Pictures) -> str:
     swatch = f'<i style="background:{color_of(report, variant)}"></i>'
     figures = [
         _figure(shown.picture, "picture"),
@@ -114,7 +114,7 @@ def _figure(png: bytes, caption: str) -> str:
     return f'<figure><img src="data:image/png;base64,{data}" alt="{alt}">{text}</figure>'
 
 
-def _facts(report: Report) -> str:
+def _facts(report: CostReport) -> str:
     setting = report.setting
     facts = {
         "File": f"{setting.file}, scene {setting.scene}, frame {setting.frame}",

@@ -5,7 +5,7 @@ import html
 import math
 from dataclasses import dataclass
 
-from .results import Measured, Report
+from .results import CostReport, Measured
 
 WIDTH, HEIGHT = 860, 460
 _LEFT, _RIGHT, _TOP, _BOTTOM = 64, 190, 18, 46
@@ -56,12 +56,12 @@ class Label:
     color: str = "ink"
 
 
-def color_of(report: Report, variant: Measured) -> str:
+def color_of(report: CostReport, variant: Measured) -> str:
     """Return the colour of a variant, the same in all parts of a report."""
     return COLORS[report.variants.index(variant) % len(COLORS)]
 
 
-def draw_plot(report: Report) -> list[Line | Dot | Label]:
+def draw_plot(report: CostReport) -> list[Line | Dot | Label]:
     """Return the drawing steps of a report's plot; dots are what was rendered.
 
     Variants that were too short to be timed have no place in it, unless all were.

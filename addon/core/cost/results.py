@@ -98,7 +98,7 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class Report:
+class CostReport:
     """All of a measurement. `files` are the reports that were written, by what they are."""
 
     setting: Setting

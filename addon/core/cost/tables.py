@@ -6,15 +6,15 @@ import io
 import json
 
 from .advice import UNTIMED, bias_text, duration, seconds, spent
-from .results import Measured, Report
+from .results import CostReport, Measured
 
 
-def to_json(report: Report) -> str:
+def to_json(report: CostReport) -> str:
     """Return all of a report; what is never reached or was not measured is null."""
     return json.dumps(report.as_dict(), indent=2, allow_nan=False) + "\n"
 
 
-def to_csv(report: Report) -> str:
+def to_csv(report: CostReport) -> str:
     """Return a line for each variant; what is never reached or was not measured is empty.
 
     Seconds per sample are those of all rounds with spaces between.
@@ -29,7 +29,7 @@ def to_csv(report: Report) -> str:
     return stream.getvalue()
 
 
-def headings(report: Report) -> tuple[str, ...]:
+def headings(report: CostReport) -> tuple[str, ...]:
     """Return what heads the columns of cells()."""
     time = report.equal_time
     return (
@@ -45,7 +45,7 @@ def headings(report: Report) -> tuple[str, ...]:
     )
 
 
-def cells(report: Report, variant: Measured) -> tuple[str, ...]:
+def cells(report: CostReport, variant: Measured) -> tuple[str, ...]:
     """Return what a table shows of a variant."""
     row = next(row for row in report.rows() if row["key"] == variant.key)
     memory = row["memory_mb"]
@@ -62,7 +62,7 @@ def cells(report: Report, variant: Measured) -> tuple[str, ...]:
     )
 
 
-def sort_keys(report: Report, variant: Measured) -> tuple[object, ...]:
+def sort_keys(report: CostReport, variant: Measured) -> tuple[object, ...]:
     """Return what the columns of cells() are sorted by; None comes last."""
     row = next(row for row in report.rows() if row["key"] == variant.key)
     names = ("variant", "seconds_to_error", "error_at_equal_time", "bias", "noise", "seconds")
@@ -70,7 +70,7 @@ def sort_keys(report: Report, variant: Measured) -> tuple[object, ...]:
     return tuple(row[name] for name in (*names, *more))
 
 
-def to_text(report: Report) -> str:
+def to_text(report: CostReport) -> str:
     """Return the table and the sentence in plain text."""
     rows = [headings(report), *(cells(report, variant) for variant in report.ranked())]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]

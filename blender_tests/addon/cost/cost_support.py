@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from addon.core.cost.page import Drawer, Pictures
-from addon.core.cost.results import Cost, Measured, Report, Setting
+from addon.core.cost.results import Cost, CostReport, Measured, Setting
 from addon.core.cost.statistics import ErrorSplit
 from blender_tests.addon.support import small_scene
 
@@ -33,7 +33,7 @@ def measured(
     return Measured(key, key.title(), family, 16, cost, split)
 
 
-def report(*variants: Measured, error: float = 0.02, **changes: object) -> Report:
+def report(*variants: Measured, error: float = 0.02, **changes: object) -> CostReport:
     """Return a report of made-up measurements."""
     setting = {
         "file": "a<b.blend",
@@ -53,7 +53,7 @@ def report(*variants: Measured, error: float = 0.02, **changes: object) -> Repor
         "memory_source": "Cycles",
         "notes": ("A note.",),
     } | changes
-    return Report(Setting(**setting), variants, "A sentence.", {"page": "cost.html"})
+    return CostReport(Setting(**setting), variants, "A sentence.", {"page": "cost.html"})
 
 
 def noisy_pictures(variants: tuple[Measured, ...], widest: int = 24) -> Drawer:

@@ -8,8 +8,8 @@ import numpy as np
 import OpenImageIO
 import pytest
 
-from addon.farm.child import SIZE, pixels
 from addon.farm.proof import TOLERANCE, Proof, ProofError, prove
+from addon.farm.small_render import SIZE, pixels
 from blender_tests.addon.support import small_scene
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from addon.command.main import main
 from addon.material.node import new_material
-from addon.operators.analyse import last_report
+from addon.operators.analyse import last_analysis
 
 from ..analysis.analysis_support import image, textured
 from ..support import small_scene
@@ -41,7 +41,7 @@ def quality(name: str) -> int:
 
 def test_analysing_changes_nothing(scene) -> None:
     assert bpy.ops.microbounce.analyse() == {"FINISHED"}
-    report = last_report(bpy.context)
+    report = last_analysis(bpy.context)
     assert {row.name: row.proposal.then.quality for row in report.rows} == {
         "Smooth": "Single",
         "Rough": "Fitted",
@@ -59,7 +59,7 @@ def test_it_can_be_ended_before_its_end(scene) -> None:
     assert [next(pieces) for _ in range(4)] == [0.0, 0.0, 0.0, 1 / 64]
     pieces.close()
     assert bpy.ops.microbounce.analyse("INVOKE_DEFAULT") == {"FINISHED"}
-    assert len(last_report(bpy.context).changes) == 2
+    assert len(last_analysis(bpy.context).changes) == 2
 
 
 def test_images_without_time_count_as_anything(scene, monkeypatch) -> None:
@@ -73,7 +73,7 @@ def test_images_without_time_count_as_anything(scene, monkeypatch) -> None:
         tree.links.new(textured(tree, made), node.inputs["Roughness"])
     monkeypatch.setattr(analyse, "_SECONDS", 0.0)
     bpy.ops.microbounce.analyse()
-    for row in last_report(bpy.context).rows:
+    for row in last_analysis(bpy.context).rows:
         assert row.notes[0].endswith("there was no time to read the image 'Slope'")
         assert row.proposal.then.quality == "Fitted"
     bpy.ops.microbounce.apply_analysis()
@@ -94,7 +94,7 @@ def test_analysing_after_applying_proposes_nothing(scene) -> None:
     bpy.ops.microbounce.analyse()
     bpy.ops.microbounce.apply_analysis()
     bpy.ops.microbounce.analyse()
-    assert last_report(bpy.context).changes == ()
+    assert last_analysis(bpy.context).changes == ()
     assert not bpy.ops.microbounce.apply_analysis.poll()
 
 
@@ -123,7 +123,7 @@ def test_a_proposal_for_another_surface_is_left(scene, capfd) -> None:
 def test_what_is_driven_is_told_and_left(scene) -> None:
     quality("Smooth").driver_add("default_value")
     bpy.ops.microbounce.analyse()
-    rows = {row.name: row.proposal for row in last_report(bpy.context).rows}
+    rows = {row.name: row.proposal for row in last_analysis(bpy.context).rows}
     assert rows["Smooth"].reason == "Quality has a driver or is animated: it stays"
     assert not rows["Smooth"].changes
     bpy.ops.microbounce.apply_analysis()
@@ -139,7 +139,7 @@ def test_materials_of_a_library_are_told_and_left(scene, tmp_path) -> None:
     assert linked.library is not None
     bpy.data.materials["Smooth"].user_remap(linked)
     bpy.ops.microbounce.analyse()
-    rows = {row.name: row.proposal for row in last_report(bpy.context).rows}
+    rows = {row.name: row.proposal for row in last_analysis(bpy.context).rows}
     assert rows["Smooth"].reason == "It is linked from a library: it stays"
     bpy.ops.microbounce.apply_analysis()
     assert quality("Rough").default_value == 1
@@ -149,14 +149,14 @@ def test_an_empty_scene(registered) -> None:
     with pytest.raises(RuntimeError, match="no analysis of this scene"):
         bpy.ops.microbounce.apply_analysis()
     assert bpy.ops.microbounce.analyse() == {"FINISHED"}
-    report = last_report(bpy.context)
+    report = last_analysis(bpy.context)
     assert (report.rows, report.error_now, report.time_ratio) == ((), 0.0, 1.0)
 
 
 def test_without_a_camera(scene) -> None:
     scene.camera = None
     bpy.ops.microbounce.analyse()
-    report = last_report(bpy.context)
+    report = last_analysis(bpy.context)
     assert not report.has_camera
     assert [row.proposal.share for row in report.rows] == [0.5, 0.5]
 
@@ -164,23 +164,23 @@ def test_without_a_camera(scene) -> None:
 def test_the_tolerance_decides(scene) -> None:
     """Rough metal may be a single bounce where anything will do."""
     bpy.ops.microbounce.analyse(tolerance=1.0)
-    assert {row.proposal.then.quality for row in last_report(bpy.context).rows} == {"Single"}
+    assert {row.proposal.then.quality for row in last_analysis(bpy.context).rows} == {"Single"}
     bpy.ops.microbounce.analyse()
-    assert last_report(bpy.context).tolerance == pytest.approx(0.01)
+    assert last_analysis(bpy.context).tolerance == pytest.approx(0.01)
 
 
 def test_the_preferences_tolerance_counts_unless_one_is_given(scene, stored) -> None:
     stored.tolerance = 0.25
     bpy.ops.microbounce.analyse()
-    assert last_report(bpy.context).tolerance == 0.25
+    assert last_analysis(bpy.context).tolerance == 0.25
     bpy.ops.microbounce.analyse(tolerance=0.5)
-    assert last_report(bpy.context).tolerance == 0.5
+    assert last_analysis(bpy.context).tolerance == 0.5
 
 
 def test_a_report_belongs_to_its_file_and_scene(scene) -> None:
     bpy.ops.microbounce.analyse()
     bpy.context.window.scene = bpy.data.scenes.new("Other") if bpy.context.window else None
-    assert last_report(bpy.context) is None
+    assert last_analysis(bpy.context) is None
 
 
 class Layout:

@@ -14,7 +14,7 @@ from addon.core.cost.results import TOO_SHORT
 from addon.core.run import Progress
 from addon.cost import run
 from addon.operators import cost
-from addon.operators.cost import MICROBOUNCE_OT_measure_cost, last_report
+from addon.operators.cost import MICROBOUNCE_OT_measure_cost, last_measurement
 from addon.ui.cost import MICROBOUNCE_PT_cost, MICROBOUNCE_PT_cost_options
 from blender_tests.addon.cost.cost_support import dump, measured, report, tiny_scene
 from blender_tests.addon.operators.fake_run import FakeRun
@@ -43,14 +43,14 @@ def asked(monkeypatch):
 
 def test_scripts_wait_for_it(asked, scene):
     before = dump()
-    assert last_report() is None
+    assert last_measurement() is None
     assert bpy.ops.microbounce.measure_cost(
         samples=8, steps="walk, fitted", bounces="", kernels="0.2", error=5.0, output="//here"
     ) == {"FINISHED"}
     options = Options(samples=8, steps=("Fitted", "Walk"), bounces=(), kernels=(0.2,), error=0.05)
     ((wanted, layer, found, folder),) = asked
     assert (wanted, layer.name, found, folder) == (scene, "ViewLayer", options, "//here")
-    assert last_report() is REPORT
+    assert last_measurement() is REPORT
     assert dump() == before
 
 
@@ -70,7 +70,7 @@ def test_what_is_offered_is_what_the_command_offers(asked):
 def test_wrong_options(options, message):
     with pytest.raises(RuntimeError, match=message):
         bpy.ops.microbounce.measure_cost(**options)
-    assert last_report() is None
+    assert last_measurement() is None
 
 
 def test_not_without_a_camera(scene):

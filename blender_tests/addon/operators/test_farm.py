@@ -39,9 +39,9 @@ def draw(bpy, panel):
 
 
 def last(bpy):
-    from addon.operators.farm import last_findings
+    from addon.operators.farm import last_farm_findings
 
-    return last_findings(bpy.context.scene)
+    return last_farm_findings(bpy.context.scene)
 
 
 @pytest.mark.parametrize("panel", PANELS)

@@ -72,16 +72,16 @@ def test_the_handler_outlives_a_new_file(registered, tmp_path, capfd):
 def test_operator_reports_and_the_panel_shows(osl_scene, capfd):
     import bpy
 
-    from addon.scene.before_render import last_findings
+    from addon.scene.before_render import last_render_findings
 
     check_render = bpy.ops.microbounce.check_render
     assert check_render() == {"FINISHED"}
     assert "No Microbounce material is rendered" in capfd.readouterr().out
-    assert last_findings(osl_scene) is None
+    assert last_render_findings(osl_scene) is None
     material = give_material()
     check_render()
     assert "will render as they should" in capfd.readouterr().out
-    assert last_findings(osl_scene) == ()
+    assert last_render_findings(osl_scene) == ()
     node = material.node_tree.nodes["Microbounce Conductor"]
     node.node_tree["microbounce_stamp"] = "older"
     osl_scene.cycles.shading_system = False
@@ -89,20 +89,20 @@ def test_operator_reports_and_the_panel_shows(osl_scene, capfd):
     said = capfd.readouterr().out
     assert "Warning: Scene 'Scene': Open Shading Language is off" in said
     assert "Info: Material 'Ours': It was made by another version" in said
-    levels = [finding.level for finding in last_findings(osl_scene)]
+    levels = [finding.level for finding in last_render_findings(osl_scene)]
     assert levels == ["warning", "note"]
     sphere().data.materials.clear()
     check_render()
-    assert last_findings(osl_scene) is None
+    assert last_render_findings(osl_scene) is None
 
 
 def test_findings_end_with_the_registration(osl_scene):
     import addon
-    from addon.scene.before_render import last_findings, remember
+    from addon.scene.before_render import last_render_findings, remember
 
     assert remember(osl_scene, (Finding("note", "Scene 'Scene'", "Well."),))
     addon.unregister()
-    assert last_findings(osl_scene) is None
+    assert last_render_findings(osl_scene) is None
     addon.register()
 
 

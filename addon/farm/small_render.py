@@ -1,13 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders a .blend file small; a script that `proof.py` runs in a Blender of its own.
-
-Arguments after "--": the file, where to put the pixels, and the folder of the extension. With that
-the extension is registered and compiles the shaders anew; with "" the file is on its own.
-"""
-
-import importlib.util
-import os
-import sys
+"""Renders a .blend file small, in a Blender that `proof.py` starts."""
 
 import bpy
 
@@ -15,11 +7,15 @@ SIZE = 64  # pixels of the longer side
 SAMPLES = 16
 
 
-def main(blend: str, target: str, extension: str) -> None:
-    """Write the pixels of the file's active scene to `target`, as float32."""
+def run(blend: str, target: str, extension: str) -> None:
+    """Write the pixels of the file's active scene to `target`, as float32.
+
+    With `extension` "with" the extension is registered and compiles the shaders again. With
+    "without" it is not registered, so the file is on its own.
+    """
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False, use_scripts=False)
-    if extension:
-        _compile_anew(extension)
+    if extension == "with":
+        _compile_anew()
     picture = f"{target}.exr"
     _make_small(bpy.context.scene, picture)
     bpy.ops.render.render(write_still=True)
@@ -36,17 +32,12 @@ def pixels(picture: str) -> "numpy.ndarray":
     return values
 
 
-def _compile_anew(folder: str) -> None:
-    """Register the extension that lies in `folder`, and let it compile the file's shaders."""
-    name = "microbounce_of_the_proof"
-    spec = importlib.util.spec_from_file_location(
-        name, os.path.join(folder, "__init__.py"), submodule_search_locations=[folder]
-    )
-    package = importlib.util.module_from_spec(spec)
-    sys.modules[name] = package
-    spec.loader.exec_module(package)
-    package.register()
-    importlib.import_module(f"{name}.farm.recompile").compile_anew()
+def _compile_anew() -> None:
+    from ..registration import register
+    from .recompile import compile_anew
+
+    register()
+    compile_anew()
 
 
 def _make_small(scene: bpy.types.Scene, picture: str) -> None:
@@ -70,17 +61,3 @@ def _make_small(scene: bpy.types.Scene, picture: str) -> None:
         cycles.samples, cycles.seed, cycles.time_limit = SAMPLES, 0, 0
         cycles.use_layer_samples = "IGNORE"
         cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_animated_seed = False
-
-
-if __name__ == "__main__":
-    status = 1
-    try:
-        main(*sys.argv[sys.argv.index("--") + 1 :])
-        status = 0
-    except Exception as error:  # noqa: BLE001 - handed on: the caller shows the last line
-        print(str(error).strip().removeprefix("Error: "), file=sys.stderr)
-    finally:
-        # Blender's own tear-down was seen to hang.
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(status)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The script that the other Blender runs: measures the job in the file that is its last argument.
+"""The script that every other Blender of ours starts with (child_blender.py).
 
-Its errors are the last line on standard error. It ends when its standard input closes, so that it
-does not outlive the Blender that started it.
+Arguments after "--": a module of the extension, such as "cost.measure", and the texts for its
+run(). The extension is loaded, but not registered. An error is the last line on standard error. The
+process ends when its standard input closes, so it does not outlive the Blender that started it.
 """
 
 import importlib.util
@@ -11,18 +12,18 @@ import sys
 import threading
 from pathlib import Path
 
-_NAME = "microbounce_of_the_cost"
+_NAME = "microbounce_in_a_child"
 
 
-def _main(job: str) -> None:
-    folder = Path(__file__).resolve().parents[1]
+def _main(module: str, *arguments: str) -> None:
+    folder = Path(__file__).resolve().parent
     spec = importlib.util.spec_from_file_location(
         _NAME, folder / "__init__.py", submodule_search_locations=[str(folder)]
     )
     package = importlib.util.module_from_spec(spec)
     sys.modules[_NAME] = package
     spec.loader.exec_module(package)
-    importlib.import_module(f"{_NAME}.cost.measure").measure_job(Path(job))
+    importlib.import_module(f"{_NAME}.{module}").run(*arguments)
 
 
 def _end_with_input() -> None:
@@ -36,7 +37,7 @@ if __name__ == "__main__":
     try:
         import bpy  # noqa: F401 - Blender as a Python module starts here
 
-        _main(sys.argv[-1])
+        _main(*sys.argv[sys.argv.index("--") + 1 :])
         status = 0
     except Exception as error:  # noqa: BLE001 - handed on: the caller shows the last line
         print(str(error).strip().removeprefix("Error: ") or repr(error), file=sys.stderr)
