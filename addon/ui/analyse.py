@@ -9,7 +9,7 @@ from ..core.analysis.picture_error import percent
 from ..operators.analyse import MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis, last_analysis
 from ..preferences import stored_preferences
 from ..text import label
-from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor, draw_lines
+from .panels import draw_lines, in_both_editors
 
 if TYPE_CHECKING:
     from ..analysis.analyse import Analysis, Row
@@ -92,22 +92,6 @@ class _AnalysisPanel:
         draw_analysis(self.layout, context)
 
 
-class MICROBOUNCE_PT_analysis_shader_editor(_AnalysisPanel, bpy.types.Panel):
-    """The analysis in the Shader editor."""
-
-    bl_space_type = "NODE_EDITOR"
-    bl_region_type = "UI"
-    bl_category = "Microbounce"
-    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
-
-
-class MICROBOUNCE_PT_analysis_material(_AnalysisPanel, bpy.types.Panel):
-    """The analysis in the material properties."""
-
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "material"
-    bl_parent_id = MICROBOUNCE_PT_material.__name__
-
-
-CLASSES = (MICROBOUNCE_PT_analysis_shader_editor, MICROBOUNCE_PT_analysis_material)
+CLASSES = in_both_editors(
+    _AnalysisPanel, "MICROBOUNCE_PT_analysis_shader_editor", "MICROBOUNCE_PT_analysis_material"
+)

@@ -5,7 +5,7 @@ import bpy
 
 from ..operators.convert import MICROBOUNCE_OT_to_microbounce, MICROBOUNCE_OT_to_native
 from ..operators.update import MICROBOUNCE_OT_update_materials
-from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+from .panels import in_both_editors
 
 
 class _Convert:
@@ -26,22 +26,6 @@ class _Convert:
         self.layout.operator(MICROBOUNCE_OT_update_materials.bl_idname, icon="FILE_REFRESH")
 
 
-class MICROBOUNCE_PT_convert_nodes(_Convert, bpy.types.Panel):
-    """Convert in the Shader editor."""
-
-    bl_space_type = "NODE_EDITOR"
-    bl_region_type = "UI"
-    bl_category = "Microbounce"
-    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
-
-
-class MICROBOUNCE_PT_convert_material(_Convert, bpy.types.Panel):
-    """Convert in the material properties."""
-
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "material"
-    bl_parent_id = MICROBOUNCE_PT_material.__name__
-
-
-CLASSES = (MICROBOUNCE_PT_convert_nodes, MICROBOUNCE_PT_convert_material)
+CLASSES = in_both_editors(
+    _Convert, "MICROBOUNCE_PT_convert_nodes", "MICROBOUNCE_PT_convert_material"
+)

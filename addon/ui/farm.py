@@ -5,7 +5,7 @@ import bpy
 
 from ..operators.farm import MICROBOUNCE_OT_check_farm, last_farm_findings
 from .findings import draw_findings
-from .panels import MICROBOUNCE_PT_material, MICROBOUNCE_PT_shader_editor
+from .panels import in_both_editors
 
 
 class _FarmPanel:
@@ -28,22 +28,6 @@ class _FarmPanel:
             draw_findings(layout, context, findings)
 
 
-class MICROBOUNCE_PT_farm_shader_editor(_FarmPanel, bpy.types.Panel):
-    """The check for a farm in the Shader editor."""
-
-    bl_space_type = "NODE_EDITOR"
-    bl_region_type = "UI"
-    bl_category = "Microbounce"
-    bl_parent_id = MICROBOUNCE_PT_shader_editor.__name__
-
-
-class MICROBOUNCE_PT_farm_material(_FarmPanel, bpy.types.Panel):
-    """The check for a farm in the material properties."""
-
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "material"
-    bl_parent_id = MICROBOUNCE_PT_material.__name__
-
-
-CLASSES = (MICROBOUNCE_PT_farm_shader_editor, MICROBOUNCE_PT_farm_material)
+CLASSES = in_both_editors(
+    _FarmPanel, "MICROBOUNCE_PT_farm_shader_editor", "MICROBOUNCE_PT_farm_material"
+)

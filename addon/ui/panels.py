@@ -16,6 +16,9 @@ from .choices import draw_choices
 # Pixels at scale 1: of a character, rounded up, and of what a line has at its sides.
 _CHARACTER, _SIDES = 6.5, 72
 
+# What says where a panel is.
+_PLACE = ("bl_space_type", "bl_region_type", "bl_category", "bl_context")
+
 
 def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Say whether the shaders run, where OSL is merely off offering to switch it on.
@@ -102,3 +105,19 @@ class MICROBOUNCE_PT_material(bpy.types.Panel):
 
 
 CLASSES = (MICROBOUNCE_PT_shader_editor, MICROBOUNCE_PT_material)
+
+
+def in_both_editors(panel: type, in_shader_editor: str, in_material: str) -> tuple[type, type]:
+    """Return `panel` as two registrable classes of these names, below the two panels above."""
+    return tuple(
+        type(
+            name,
+            (panel, bpy.types.Panel),
+            {
+                "__doc__": panel.__doc__,
+                "bl_parent_id": parent.__name__,
+                **{key: value for key, value in vars(parent).items() if key in _PLACE},
+            },
+        )
+        for name, parent in zip((in_shader_editor, in_material), CLASSES, strict=True)
+    )
