@@ -137,7 +137,7 @@ _SHADERS = [
         "osl/include/walks.h",
         "if (accuracy.quality == QUALITY_EXACT)",
         "if (accuracy.quality > QUALITY_EXACT)",
-        _PICTURES,
+        _addon("scene/test_exact.py"),
     ),
     Mutant(
         "walks lose the weight of their candidates",
