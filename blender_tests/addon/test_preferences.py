@@ -96,6 +96,42 @@ def test_new_nodes_take_the_quality(registered, stored, kind):
     area.ui_type = before
 
 
+@pytest.mark.parametrize("replaces", [False, True], ids=["empty slot", "native material"])
+def test_presets_take_the_quality_for_a_new_node(registered, stored, replaces):
+    bpy = registered
+    stored.quality = "Walk"
+    obj = bpy.data.objects.new("Thing", bpy.data.meshes.new("Mesh"))
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    if replaces:
+        obj.data.materials.append(surface_material("Native")[0])
+    assert bpy.ops.microbounce.apply_preset(identifier="conductor/gold") == {"FINISHED"}
+    assert quality_of(obj.active_material.node_tree) == 2
+
+
+def test_a_preset_leaves_the_quality_of_a_node_that_is_there(registered, stored):
+    bpy = registered
+    obj = bpy.data.objects.new("Thing", bpy.data.meshes.new("Mesh"))
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.microbounce.apply_preset(identifier="conductor/gold")
+    stored.quality = "Walk"
+    bpy.ops.microbounce.apply_preset(identifier="conductor/silver")
+    assert quality_of(obj.active_material.node_tree) == 1
+
+
+def test_the_command_line_knows_no_preferences(registered, stored, command, tmp_path):
+    """A farm gives the same as the artist's machine."""
+    bpy = registered
+    stored.quality = "Walk"
+    surface_material("Metal")
+    bpy.data.materials["Metal"].use_fake_user = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    code, _, err = command("preset", "conductor/gold", "--material", "Metal", "--save")
+    assert code == 0, err
+    assert quality_of(bpy.data.materials["Metal"].node_tree) == 1
+
+
 def test_they_can_be_drawn(registered, stored):
     from addon.preferences import MicrobouncePreferences
 
