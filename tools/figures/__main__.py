@@ -20,7 +20,7 @@ COMMAND = "python -m tools.figures"
 
 
 def files(found: Findings) -> dict[str, str]:
-    """Names and contents of the files of all figures that there are data of."""
+    """Names and contents of the figures' files."""
     made = {}
     with draw.style():
         if found.masking:
@@ -38,7 +38,7 @@ def files(found: Findings) -> dict[str, str]:
 
 
 def summary(found: Findings, effort: Effort) -> dict[str, str]:
-    """Names and contents of the files that all figures together have."""
+    """Names and contents of the files about all figures together."""
     return {
         "README.md": report(found, effort),
         "distances_to_simulated.csv": tables.distances(to_simulated(found)),
@@ -50,7 +50,7 @@ def summary(found: Findings, effort: Effort) -> dict[str, str]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line; returns the exit code."""
+    """Run the command line; returns the exit code."""
     parser = argparse.ArgumentParser(
         prog=COMMAND,
         description="Draw the supplement's figures, with their numbers as CSV and a README.",
@@ -61,10 +61,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         nargs="+",
         choices=NUMBERS,
         metavar="NUMBER",
-        help="only the figures of these numbers, and no README",
+        help="draw only these figures, without the README",
     )
     parser.add_argument(
-        "--quick", action="store_true", help="few walks, to see that it works; needs --output"
+        "--quick", action="store_true", help="take few walks, to see that it works; needs --output"
     )
     parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, help="processes (default: %(default)s)"
@@ -74,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--cache", type=Path, default=CACHE, help="folder of results (default: build/figures)"
     )
     parser.add_argument(
-        "--force", action="store_true", help="compute all anew, whether or not it is in the cache"
+        "--force", action="store_true", help="compute everything anew, even if it is in the cache"
     )
     options = parser.parse_args(arguments)
     if options.quick and options.output is None:
@@ -90,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if whole(numbers):
             computed |= results(settled(computed, effort).values(), *how)
     except KeyboardInterrupt:
-        print(f"\nInterrupted. What is done is kept in {options.cache}", file=sys.stderr)
+        print(f"\nInterrupted. Finished results are in {options.cache}", file=sys.stderr)
         return 130
     found = Findings.sort(computed, numbers, effort)
     made = files(found) | (summary(found, effort) if whole(numbers) else {})

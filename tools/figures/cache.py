@@ -2,7 +2,7 @@
 """Runs tasks in several processes and keeps their results in a folder.
 
 A task is a frozen dataclass. Its result is kept under a digest of its parameters and of the source
-files it depends on, so that it is computed anew exactly when one of those has changed.
+files it depends on. So it is computed anew exactly when one of them has changed.
 """
 
 import ast
@@ -27,7 +27,7 @@ Result = dict[str, np.ndarray]
 
 
 class Task(Protocol):
-    """What can be run: hashable, with all its parameters in its ``repr``."""
+    """A hashable computation whose ``repr`` has all its parameters."""
 
     cost: int
 
@@ -76,9 +76,10 @@ def _imported(module: Path) -> Iterator[Path]:
 def results(
     tasks: Iterable[Task], folder: Path, jobs: int, force: bool = False, show: bool = False
 ) -> dict[Task, Result]:
-    """The results of ``tasks``, read from ``folder`` or, where missing, computed and kept there.
+    """The results of ``tasks``, read from ``folder``, or computed and kept there if missing.
 
-    ``jobs`` processes; 1 works in this one. ``force`` computes all anew; ``show`` a progress bar.
+    ``jobs``: the number of processes; 1 works in this one. ``force`` computes all anew. ``show``
+    shows a progress bar.
     """
     tasks = list(dict.fromkeys(tasks))
     folder.mkdir(parents=True, exist_ok=True)
@@ -120,12 +121,12 @@ def _die_on_interrupt() -> None:
 
 
 def _computed(tasks: list[Task], jobs: int) -> Iterator[tuple[Task, Result]]:
-    """Tasks with their results, as they come."""
+    """Tasks with their results, in the order in which they finish."""
     if jobs == 1 or len(tasks) < 2:
         for task in tasks:
             yield task, _run(task)
         return
-    # Embree keeps threads, which a forked process would lack
+    # a forked process would lack Embree's threads
     context = multiprocessing.get_context("spawn")
     longest_first = sorted(tasks, key=lambda task: -task.cost)
     with ProcessPoolExecutor(jobs, context, _die_on_interrupt) as pool:

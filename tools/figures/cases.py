@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the figures show, and the tasks that their data take."""
+"""What the figures show, and the tasks that compute their data."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ MATERIALS: dict[str, Material] = {
 ALPHAS: tuple[Alpha, ...] = ((0.25, 0.25), (0.5, 0.5), (1.0, 1.0), (1.0, 0.1))
 THETAS = (0.0, 0.5, 1.0, 1.5)  # radians from the normal
 
-TRACKED, SIMULATED = "height-tracked", "simulated"  # columns that others are compared with
+TRACKED, SIMULATED = "height-tracked", "simulated"  # the columns that others are compared with
 MODELS = {"uncorrelated": UNCORRELATED, "correlated": CORRELATED, TRACKED: HEIGHT_TRACKED}
 COLUMNS = (*MODELS, SIMULATED)
 
@@ -37,10 +37,14 @@ RECIPROCITY = 17
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is computed: ``walks`` on each model; ``sheets``, in groups of ``group`` (even), and
-    ``rays`` on each, of ``cells`` squared; ``fine`` sheets of twice the resolution, an even number;
-    ``pairs`` of directions, in chunks, and walks for each; ``angles`` of a masking curve; pairs and
-    walks of ``estimates`` that are made in two ways, and walks each way that ``settle`` a pair."""
+    """How much is computed.
+
+    ``walks`` on each model. ``sheets`` of ``cells`` squared, in groups of ``group`` (even), with
+    ``rays`` on each, and ``fine`` sheets (even) of twice the resolution. ``pairs`` of directions in
+    chunks of ``chunk``, with ``pair_walks`` each. ``angles`` of a masking curve. ``estimates``: the
+    pairs for both estimators, and the walks of each. ``settle``: the walks, one-way and
+    bidirectional, that settle a pair.
+    """
 
     walks: int
     sheets: int
@@ -111,7 +115,7 @@ LOBE_FIGURES = tuple(
     for i, material in enumerate(MATERIALS)
     for j, alpha in enumerate(ALPHAS)
 )
-CHECKED = tuple(one for one in LOBE_FIGURES if one.number in (11, 15))  # of one alpha
+CHECKED = tuple(one for one in LOBE_FIGURES if one.number in (11, 15))  # both have alpha 1
 NUMBERS = (MASKING, *(figure.number for figure in LOBE_FIGURES), RECIPROCITY)
 
 MASKING_SURFACES = tuple(
@@ -128,7 +132,7 @@ def name(number: int) -> str:
 
 
 def alpha_text(alpha: Alpha) -> str:
-    """``α = 0.5``, or ``α = (1, 0.1)`` where the surface is anisotropic."""
+    """``α = 0.5``, or ``α = (1, 0.1)`` if the surface is anisotropic."""
     x, y = alpha
     return f"α = {x:g}" if x == y else f"α = ({x:g}, {y:g})"
 
@@ -158,14 +162,14 @@ def traced(alpha: Alpha, effort: Effort) -> list[Traced]:
 
 
 def finer(effort: Effort) -> list[Traced]:
-    """The tasks that tell how much the width of the facets matters: `CHECKED` on finer sheets."""
+    """The tasks that show the effect of the facets' size: `CHECKED` on finer sheets."""
     finest = replace(_checked(effort)[0], cells=2 * effort.cells, resolution=2.0 * RESOLUTION)
     pairs = zip(range(0, effort.fine, 2), range(1, effort.fine, 2), strict=True)
     return [replace(finest, sheets=pair) for pair in pairs]
 
 
 def unstretched(effort: Effort) -> list[Traced]:
-    """The tasks that tell what the stretching of the sheets changes: `CHECKED` without it."""
+    """The tasks that show the effect of stretching the sheets: `CHECKED` without it."""
     return [replace(task, stretched=False) for task in _checked(effort)]
 
 
@@ -200,8 +204,10 @@ def ggx(effort: Effort) -> list[Walked]:
 
 
 def estimators(effort: Effort) -> dict[tuple[str, str, Alpha], Estimators]:
-    """The tasks that compare the walk with the bidirectional estimator, by model, material and
-    width: GGX, which has more further bounces."""
+    """The tasks that compare the walk with the bidirectional estimator, by model, material, alpha.
+
+    They take GGX, which has more energy after the first bounce.
+    """
     return {
         (model, material, alpha): Estimators(
             Surface(*alpha, GGX, MATERIALS[material], MODELS[model]), *effort.estimates
@@ -215,8 +221,7 @@ def estimators(effort: Effort) -> dict[tuple[str, str, Alpha], Estimators]:
 def settled(
     found: dict[Task, Result], effort: Effort
 ) -> dict[tuple[tuple[str, str, Alpha], int], Settled]:
-    """The tasks that follow from what `estimators` ``found``, by case and number of the pair: the
-    pairs whose two values are far apart."""
+    """The tasks for pairs whose values by `estimators` are far apart, by case and pair number."""
     return {
         (case, int(pair)): Settled(task, int(pair), *effort.settle)
         for case, task in estimators(effort).items()
@@ -225,12 +230,12 @@ def settled(
 
 
 def whole(numbers: Collection[int]) -> bool:
-    """Whether these are all figures, so that the README belongs to them."""
+    """Whether these are all figures, so that the README can be made."""
     return set(numbers) == set(NUMBERS)
 
 
 def tasks(numbers: Collection[int], effort: Effort) -> list[Task]:
-    """All tasks of the figures of these numbers, and of the README if it belongs to them."""
+    """All tasks of these figures, and of the README if these are all figures."""
     found: list[Task] = masking_curves(effort) if MASKING in numbers else []
     for figure in LOBE_FIGURES:
         if figure.number in numbers:

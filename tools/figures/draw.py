@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the figures have in common: style, colours, and SVG files that are small and the same byte
-for byte whenever their data are."""
+"""The figures' style, colours and layout, and small SVG files that depend on nothing but data."""
 
 import io
 import re
@@ -12,7 +11,7 @@ from matplotlib.figure import Figure
 
 WIDTH = 9.0  # inches, shown at about 900 pixels
 
-# After Okabe and Ito, whose palette the colour-blind can tell apart; the purple is darker.
+# The palette of Okabe and Ito, which the colour-blind can tell apart, with a darker purple.
 BOUNCE_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a0478a", "#222222")
 INK, FAINT, PAPER = "#222222", "#8a8a8a", "#ffffff"
 
@@ -31,8 +30,8 @@ _STYLE = {
     "legend.fontsize": 8,
     "legend.frameon": False,
     "lines.linewidth": 1.2,
-    "svg.fonttype": "none",  # text stays text, in whatever sans serif the viewer has
-    "svg.hashsalt": "microbounce",  # names of SVG elements that do not change
+    "svg.fonttype": "none",  # text stays text, in the viewer's sans serif
+    "svg.hashsalt": "microbounce",  # keeps the names of SVG elements
     "xtick.color": INK,
     "xtick.labelsize": 7,
     "xtick.major.width": 0.6,
@@ -61,30 +60,30 @@ def heading(page: Figure, title: str, note: str) -> None:
 
 
 def label(page: Figure, left: float, top: float, text: str, **options: object) -> None:
-    """Text whose middle line begins at a place given in inches from the page's top left corner."""
+    """Text whose middle line begins at a place in inches from the page's top left corner."""
     options = {"va": "center", "color": INK, **options}
     page.text(left / WIDTH, 1.0 - top / page.get_figheight(), text, **options)
 
 
 def place(page: Figure, left: float, top: float, width: float, height: float) -> Axes:
-    """Axes at a place given in inches from the page's top left corner."""
+    """Axes at a place in inches from the page's top left corner."""
     tall = page.get_figheight()
     return page.add_axes((left / WIDTH, 1.0 - (top + height) / tall, width / WIDTH, height / tall))
 
 
 def _shorten(text: str) -> str:
-    """Round the coordinates of paths to tenths of a point, and leave out what says nothing."""
+    """Round the coordinates of paths to tenths of a point, and drop what has no effect."""
 
     def number(match: re.Match) -> str:
         return f"{float(match[0]):.1f}".removesuffix(".0")
 
     def path(match: re.Match) -> str:
         rounded = " ".join(re.sub(r"-?\d+\.\d+", number, match[1]).split())
-        # pairs that follow a move or a line are lines; after a curve they would be more of it
+        # pairs after a move or a line are lines; after a curve they would continue it
         return f' d="{re.sub("(?<=[ML])[^A-Za-z]*(?:L[^A-Za-z]*)+", _lines, rounded)}"'
 
     text = re.sub(r' d="([^"]*)"', path, text)
-    # one family for all texts, which ends with what every viewer has
+    # one family for all texts, with a fallback that every viewer has
     text = re.sub(r" font-family: [^;]*;", "", text)
     text = text.replace("butt}</style>", f"butt}} text{{font-family: {_FONTS}}}</style>")
     text = re.sub(r' transform="rotate\(-0 [^"]*\)"', "", text)

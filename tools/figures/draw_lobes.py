@@ -19,8 +19,8 @@ _TALLEST = 1.9  # a panel, in inches
 _LINE = 0.17  # of the numbers under a panel
 _ROW_GAP = 0.24
 _ARROW = 0.32
-_WIDE = 1.0  # radians, of a lobe that is drawn with fewer points
-_FAINTEST = 2e-4  # lobes of less energy would be a dot
+_WIDE = 1.0  # radians; a wider lobe is drawn with half the points
+_FAINTEST = 2e-4  # a lobe of less energy would be a dot
 
 _HEADS = {
     "uncorrelated": "Uncorrelated",
@@ -52,8 +52,7 @@ class _Box:
 
     @classmethod
     def around(cls, outlines: Iterable[Outline], half: float = 0.0) -> "_Box":
-        """The box of lobes, with room for the arrow and for the Lambertian lobe, at least ``half``
-        wide."""
+        """The box of lobes, the arrow and the Lambertian lobe; at least ``half`` to each side."""
         x, z = (np.concatenate(one) for one in zip(*(one[1:] for one in outlines), strict=True))
         half = max(half, 1.08 * np.abs(x).max())
         up, down = max(1.06 * z.max(), 1.04 * np.sqrt(0.5), 0.5 * half), -1.06 * z.min()
@@ -65,7 +64,7 @@ def draw(figure: LobeFigure, panels: dict[tuple[str, float], Lobes]) -> str:
     """The figure as SVG; ``panels`` by column and angle."""
     outlines = {where: list(_outlines(lobes)) for where, lobes in panels.items()}
     rows = [[one for column in COLUMNS for one in outlines[column, theta]] for theta in THETAS]
-    half = max(_Box.around(row).half for row in rows)  # so that all rows have the same scale
+    half = max(_Box.around(row).half for row in rows)  # all rows get the same scale
     boxes = [_Box.around(row, half) for row in rows]
     lines = 2 if figure.transmits else 1
     steps = [box.height + lines * _LINE + _ROW_GAP for box in boxes]
@@ -130,8 +129,10 @@ def _fill(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, **options: floa
 
 
 def _outlines(lobes: Lobes) -> Iterator[Outline]:
-    """Closed curves of the lobes that are not too faint, on either side of the surface: number of
-    the lobe, x and z. The radius is the square root of the energy per radian."""
+    """Closed curves of the lobes on either side of the surface: number of the lobe, x and z.
+
+    The radius is the square root of the energy per radian. Faint lobes are left out.
+    """
     psi = plane_angles()
     for lobe in range(LOBES):
         for side in (1.0, -1.0):
@@ -153,7 +154,7 @@ def _outlines(lobes: Lobes) -> Iterator[Outline]:
 
 
 def _numbers(axes: Axes, lobes: Lobes, lines: int) -> None:
-    """E_r and, where light goes through, E_t: in total, and by bounce in the bounces' colours."""
+    """E_r, and E_t if ``lines`` is 2: in total, and by bounce in the bounces' colours."""
     axes.set(xlim=(0.0, 1.0), ylim=(lines, 0.0))
     axes.axis("off")
     for line in range(lines):

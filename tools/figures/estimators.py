@@ -27,8 +27,10 @@ class Estimators:
         return 10 * self.pairs * self.walks
 
     def directions(self) -> tuple[np.ndarray, np.ndarray]:
-        """wi and wo ``(pairs, 3)``, cosine-distributed; where the surface transmits, every other
-        wo lies below it."""
+        """wi and wo ``(pairs, 3)``, cosine-distributed.
+
+        Every other wo is below the surface if it transmits.
+        """
         u = np.random.default_rng(18).random((2, 2, self.pairs))
         wi, wo = direction(np.arccos(np.sqrt(1.0 - u[:, 0])), 2.0 * np.pi * u[:, 1])
         if self.surface.material.transmits:
@@ -42,8 +44,10 @@ class Estimators:
 
 @dataclass(frozen=True)
 class Settled:
-    """Task: the pair of the number ``pair`` among those of ``values`` once more, with as many walks
-    ``one_way``, and pairs of walks ``both_ways``."""
+    """Task: pair number ``pair`` of ``values`` once more.
+
+    ``one_way``: the number of walks. ``both_ways``: the number of pairs of walks.
+    """
 
     values: Estimators
     pair: int

@@ -23,10 +23,12 @@ Panels = dict[tuple[str, float], Lobes]  # by column and angle
 
 @dataclass(frozen=True)
 class Findings:
-    """The data of the figures, by what tells them apart within a figure. To the README belong
-    ``ggx``; ``finer`` and ``unstretched``, the simulated columns of `cases.CHECKED` on finer sheets
-    and on sheets that are not stretched; ``gains`` by model, material and width, with all their
-    ``estimates``; and ``settled``, by these and the number of the pair."""
+    """The data of the figures (``masking``, ``lobes``, ``pairs``); the rest is the README's.
+
+    ``finer`` and ``unstretched``: the simulated columns of `cases.CHECKED` on finer sheets and on
+    sheets that are not stretched. ``gains`` and ``estimates`` are by case, ``settled`` is by case
+    and number of the pair.
+    """
 
     masking: dict[MaskingCurve, Result]
     lobes: dict[LobeFigure, Panels]
@@ -42,8 +44,10 @@ class Findings:
     def sort(
         cls, found: dict[Task, Result], numbers: Collection[int], effort: Effort
     ) -> "Findings":
-        """The data of the figures of these ``numbers``, from the results of `cases.tasks` and, for
-        the README, `cases.settled`."""
+        """The data of these figures, from the results of `cases.tasks`.
+
+        The README needs those of `cases.settled` too.
+        """
         figures = [figure for figure in cases.LOBE_FIGURES if figure.number in numbers]
         curves = cases.masking_curves(effort) if cases.MASKING in numbers else []
         models = cases.RECIPROCITY_MODELS if cases.RECIPROCITY in numbers else ()
@@ -103,18 +107,17 @@ class Comparison:
 
     @property
     def apart(self) -> float:
-        """The distance of all bounces together with the noise taken off: both add up as squares."""
+        """The distance of all bounces together, less the noise; the squares subtract."""
         return float(np.sqrt(max(self.distance[-1] ** 2 - self.noise[-1] ** 2, 0.0)))
 
 
 def lobe_distance(a: Lobes, b: Lobes) -> tuple[np.ndarray, np.ndarray]:
-    """How much energy two surfaces send elsewhere, by lobe and, last, of all lobes together,
-    ``(LOBES + 1,)``, in shares of the incident energy; and as much as noise alone would make of no
-    difference at all.
+    """The share of the light that ``b`` sends elsewhere than ``a``, and the share by noise alone.
 
-    It is half the sum over cells of the absolute difference. Noise enlarges it: the differences
-    between the halves, added up and halved, scatter just as the difference of the means does, but
-    about zero.
+    Both are ``(LOBES + 1,)``: by lobe, and last for all lobes together. A distance is half the sum
+    over cells of the absolute difference. Noise enlarges it. Half the summed differences between
+    the halves scatter as the difference of the means does, but about zero, so they measure the
+    noise.
     """
     first, second = _with_all(a.halves), _with_all(b.halves)
     difference = first.mean(axis=0) - second.mean(axis=0)

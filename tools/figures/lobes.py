@@ -6,8 +6,8 @@ from rays on a simulated surface. The light comes from ``wi`` = (-sin theta, 0, 
 a mirror sends it to psi = theta; psi = atan2(x, z) is the angle from the normal of a direction
 projected on the plane of incidence.
 
-The work is done in parts, whose scatter gives the standard errors. What is kept are sums over the
-parts of what was found and of its square, so that work done apart is merged by adding it up.
+The work is done in parts, whose scatter gives the standard errors. The result holds sums over the
+parts of each value and of its square. So adding up merges results.
 """
 
 from collections.abc import Iterable, Iterator
@@ -20,7 +20,7 @@ BOUNCES = 8  # energies of bounces 1 to 7, and of 8 and more
 LOBES = 5  # lobes of bounces 1 to 4, and of 5 and more
 BOUNCE_NAMES = (*(str(k) for k in range(1, BOUNCES)), f"{BOUNCES}+")
 LOBE_NAMES = (*(str(k) for k in range(1, LOBES)), f"{LOBES}+")
-MAX_BOUNCES = 200  # for safety; the energy still inside after it is kept as "remaining"
+MAX_BOUNCES = 200  # for safety; "remaining" is the energy still inside after it
 
 PLANE_BINS = 240  # bins of psi over -pi..pi; the horizon lies between two
 PLANE_WIDTH = 2.0 * np.pi / PLANE_BINS
@@ -33,7 +33,7 @@ Sums = dict[str, np.ndarray]
 
 
 class Bounce(Protocol):
-    """What is read of `walk.Vertex` and of `simulation.Hit`."""
+    """The part of `walk.Vertex` and `simulation.Hit` that is read here."""
 
     direction: np.ndarray
     below_after: np.ndarray
@@ -69,7 +69,7 @@ class Lobes:
 
     @classmethod
     def merge(cls, *found: Sums) -> "Lobes":
-        """What sums of `gather`, one or more, amount to."""
+        """The lobes from one result of `gather` or more."""
         total = {name: sum(sums[name] for sums in found) for name in found[0]}
         count = total["parts"]
 
@@ -99,7 +99,7 @@ def plane_angles() -> np.ndarray:
 
 
 def by_lobe(energies: np.ndarray) -> np.ndarray:
-    """Energies ``(BOUNCES, ...)`` by lobe ``(LOBES, ...)``, the last of which takes the rest."""
+    """Energies ``(BOUNCES, ...)`` by lobe ``(LOBES, ...)``; the last lobe takes the rest."""
     return np.concatenate([energies[: LOBES - 1], energies[LOBES - 1 :].sum(axis=0, keepdims=True)])
 
 

@@ -7,19 +7,13 @@ from collections.abc import Iterable, Sequence
 
 from .cases import LOBE_FIGURES, Alpha, alpha_text, name
 
+# Or an item of a list; tables, headings, pictures and HTML stay as they are.
+_PARAGRAPH = re.compile(r"^(?![|#!<]).+(?:\n(?!- ).+)*", re.MULTILINE)
+
 
 def wrap(page: str) -> str:
-    """Fill the paragraphs and lists of a page, whose numbers have any length, to lines of 100."""
-    blocks = []
-    for block in page.split("\n\n"):
-        if block.startswith(("|", "#", "!", "<")):
-            blocks.append(block)
-        elif block.startswith("- "):
-            items = re.split(r"\n(?=- )", block)
-            blocks.append("\n".join(_fill(item, "  ") for item in items))
-        else:
-            blocks.append(_fill(block))
-    return "\n\n".join(blocks) + "\n"
+    """The page with its paragraphs and list items filled to lines of 100 characters."""
+    return _PARAGRAPH.sub(_fill, page) + "\n"
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -29,7 +23,7 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def picture(number: int, text: str) -> str:
-    """A figure, with a description for those who do not see it, and links to its numbers."""
+    """A figure with its alternative text, and links to its numbers."""
     start = name(number)
     kinds = ["_energies", "_lobes"] if any(f.number == number for f in LOBE_FIGURES) else [""]
     links = " and ".join(f"[{start}{kind}.csv]({start}{kind}.csv)" for kind in kinds)
@@ -42,13 +36,13 @@ def percent(share: float) -> str:
 
 
 def thousandths(share: float, signed: bool = False) -> str:
-    """A share in thousandths, with its sign if ``signed``."""
+    """A share in thousandths, with a plus sign if ``signed``."""
     text = f"{1000.0 * share:{'+' if signed else ''}.1f}"
     return "0.0" if text in ("+0.0", "-0.0") else text.replace("-", "−")
 
 
-def cases(found: Iterable[tuple[str, Alpha, float]]) -> str:
-    """Cases (material, alpha, theta) in words, those of one surface together."""
+def in_words(found: Iterable[tuple[str, Alpha, float]]) -> str:
+    """Cases (material, alpha, theta) in words, grouped by surface."""
     angles: dict[tuple[str, Alpha], list[str]] = {}
     for material, alpha, theta in found:
         angles.setdefault((material, alpha), []).append(f"{theta:g}")
@@ -59,11 +53,11 @@ def cases(found: Iterable[tuple[str, Alpha, float]]) -> str:
     return "; ".join(texts) or "none"
 
 
-def _fill(text: str, indent: str = "") -> str:
+def _fill(paragraph: re.Match) -> str:
     return textwrap.fill(
-        " ".join(text.split()),
+        " ".join(paragraph[0].split()),
         100,
-        subsequent_indent=indent,
+        subsequent_indent="  " if paragraph[0].startswith("- ") else "",
         break_long_words=False,
         break_on_hyphens=False,
     )

@@ -25,7 +25,7 @@ class MaskingCurve:
 
     def run(self, seed: int) -> dict[str, np.ndarray]:
         """``theta``, ``formula`` (eq. 3) and ``integral`` (eq. 4), all ``(angles,)``; infinite
-        where no micronormal is visible that double precision can tell from none."""
+        if no micronormal is visible in double precision."""
         theta = np.pi * (np.arange(self.angles) + 0.5) / self.angles
         w = direction(theta)
         area = np.array([projected_area(one, self.surface) for one in w])

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The data of Fig. 17: values of the BSDF for pairs of directions, both ways.
 
-Were wi and wo exchangeable, the differences would be centred on zero for any model whatever. So
-wi is always the more grazing one of a pair.
+If wi and wo were exchangeable, any model's differences would be centred on zero. So wi is always
+the more grazing one of a pair.
 """
 
 from dataclasses import dataclass
@@ -18,8 +18,10 @@ MAX_BOUNCES = 64
 
 @dataclass(frozen=True)
 class Reciprocity:
-    """Task: the BSDF of ``surface`` both ways for the pairs ``first`` to ``first + pairs - 1``, by
-    ``walks`` walks each. Which directions a number stands for depends on nothing else."""
+    """Task: the BSDF of ``surface`` both ways for the pairs ``first`` to ``first + pairs - 1``.
+
+    Each value takes ``walks`` walks. A pair's number alone determines its directions.
+    """
 
     surface: Surface
     first: int
@@ -60,8 +62,10 @@ class Reciprocity:
 
 @dataclass(frozen=True)
 class Pairs:
-    """Differences of the BSDF both ways ``(pairs,)``, their standard errors, and their quotient
-    ``z``, which is a unit normal for a reciprocal BSDF."""
+    """The BSDF both ways ``(pairs,)``, and the standard error of the difference.
+
+    Their quotient ``z`` is a unit normal for a reciprocal BSDF.
+    """
 
     wi: np.ndarray
     wo: np.ndarray

@@ -94,8 +94,8 @@ def distances(comparisons: Iterable[Comparison]) -> str:
 
 
 def estimators(found: Findings) -> str:
-    """What the walk and the bidirectional estimator scatter by, for GGX: see `gains.Gain`;
-    empty where unknown."""
+    """The scatter of the walk and the bidirectional estimator for GGX (`gains.Gain`); empty if
+    unknown."""
     rows = (
         (model, material, *alpha, bounce, pairs, *unknown, *map(_known, (*deviation, ratio)))
         for (model, material, alpha), gain in found.gains.items()
@@ -109,8 +109,11 @@ def estimators(found: Findings) -> str:
 
 
 def settled(found: Findings) -> str:
-    """Pairs of directions whose two values were far apart, for GGX: their angles in radians, z with
-    few walks, and values (bounces 2 to 6) and z with many; bsdf times abs(cos theta_o)."""
+    """Pairs of directions whose two values were far apart, for GGX.
+
+    Angles are in radians. Values are BSDF times abs(cos theta_o), bounces 2 to 6, with many walks.
+    ``z`` is with few walks, ``z_settled`` with many.
+    """
     rows = []
     for ((model, material, alpha), pair), (task, result) in found.settled.items():
         angles = [
@@ -148,7 +151,7 @@ def _fixed(values: Iterable[float], digits: int) -> list[str]:
 
 
 def _short(value: float) -> str:
-    """Four digits at most, none of them a needless zero."""
+    """At most four decimals, without trailing zeros."""
     return f"{value:.4f}".rstrip("0").rstrip(".") or "0"
 
 

@@ -18,14 +18,13 @@ RESOLUTION = 8.0  # samples in a correlation length
 
 @dataclass(frozen=True)
 class Traced:
-    """Task: rays on ``sheets``, the seeds of random sheets, an even number of them.
+    """Task: rays on ``sheets``, the seeds of an even number of random sheets.
 
-    ``alpha`` (alpha_x, alpha_y); ``cells`` and ``resolution`` as in `HeightField.gaussian`. On each
-    sheet ``rays`` rays are traced for each of ``materials`` and ``thetas``. A sheet differs with
-    alpha only in its scale, so the errors of all cases have the same sheets in common. A
-    ``stretched`` sheet has slopes of just the variances of alpha, which are else those of the mean
-    over all sheets. That takes the scatter of the slopes out of the results; the README says how
-    much it is.
+    ``alpha`` is (alpha_x, alpha_y); ``cells`` and ``resolution`` as in `HeightField.gaussian`. Each
+    sheet takes ``rays`` rays for each of ``materials`` and ``thetas``. Alpha only scales a sheet,
+    so all cases share the sheets' errors. The slopes of a ``stretched`` sheet have exactly the
+    variances of alpha. Otherwise only the mean over all sheets has. Stretching takes the scatter of
+    the slopes out of the results; the README says how much it is.
     """
 
     alpha: tuple[float, float]

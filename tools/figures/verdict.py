@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the figures say, in words that depend on the data."""
+"""Sections of the README that say what the figures show, in words that depend on the data."""
 
 from collections.abc import Callable, Iterable
 
@@ -10,9 +10,9 @@ from osl.oracle.surface import BECKMANN, GGX
 from .cases import ALPHAS, COLUMNS, MATERIALS, MODELS, SIMULATED, THETAS, TRACKED, alpha_text
 from .findings import Comparison, Findings
 from .lobes import LOBE_NAMES, by_lobe
-from .markdown import cases, percent, table
+from .markdown import in_words, percent, table
 
-AGREES = 0.02  # a model that sends at most this share of the light elsewhere is said to agree
+AGREES = 0.02  # a model agrees if it sends at most this share of the light elsewhere
 FAR = 0.1  # more than this share elsewhere is worth a table
 OURS = ("correlated", "uncorrelated")  # the paper's models
 
@@ -20,7 +20,7 @@ _GRAZING = THETAS[-1]
 
 
 def agreement(comparisons: list[Comparison]) -> str:
-    """Where the models agree with the simulated surface, and where they do not."""
+    """The cases in which the models agree with the simulated surface, and those in which not."""
     every = list(dict.fromkeys(one.case for one in comparisons))
     agree = {
         model: {one.case for one in comparisons if one.model == model and one.apart <= AGREES}
@@ -39,8 +39,8 @@ A model is said to agree in a case (a material, an α and a θ) when it sends at
 {100 * AGREES:g} % of the light elsewhere, all bounces together. Of the {len(every)} cases that is
 {counts}.
 
-- All three agree: {cases(everyone)}.
-- None agrees: {cases(nobody)}.
+- All three agree: {in_words(everyone)}.
+- None agrees: {in_words(nobody)}.
 
 Distance from the simulated surface in per cent of the light, mean over the cases (and largest):
 
@@ -57,8 +57,9 @@ def largest(found: Findings, comparisons: list[Comparison]) -> str:
     worst = max(comparisons, key=lambda one: one.apart)
     text = f"""### The largest differences
 
-The largest distance is {percent(worst.apart)} % of the light, {worst.model}, {cases([worst.case])}.
-A model sends more than {100 * FAR:g} % elsewhere in: {cases(far)}."""
+The largest distance is {percent(worst.apart)} % of the light, {worst.model},
+{in_words([worst.case])}.
+A model sends more than {100 * FAR:g} % elsewhere in: {in_words(far)}."""
     if not far:
         return text
     shown = [one for one in comparisons if one.case in far]
@@ -78,7 +79,7 @@ A model sends more than {100 * FAR:g} % elsewhere in: {cases(far)}."""
             energies = by_lobe(panels[column, theta].energies.mean)
             rows.append(
                 (
-                    cases([case]),
+                    in_words([case]),
                     column,
                     f"{energies[:, 0].sum():.3f}",
                     f"{energies[:, 1].sum():.3f}",
@@ -95,8 +96,10 @@ A model sends more than {100 * FAR:g} % elsewhere in: {cases(far)}."""
 
 
 def _through(shown: list[Comparison], late: list[float]) -> str:
-    """Why light that goes through is shared out differently, by the numbers of these cases.
-    ``late``: of what goes through the simulated surface, the shares after the first bounce."""
+    """Why the models share out transmitted light differently, with these cases' numbers.
+
+    ``late``: the shares of the transmitted light that the simulated surface sends after bounce 1.
+    """
     if not shown:
         return "They are all cases in which no light goes through."
 
@@ -126,7 +129,7 @@ def _range(shares: list[float]) -> str:
 
 
 def bounces(found: Findings) -> str:
-    """How the light is shared out among the bounces."""
+    """The light by bounce."""
     opaque = [panels for figure, panels in found.lobes.items() if not figure.transmits]
 
     def first(column: str) -> np.ndarray:
@@ -193,13 +196,13 @@ al. (here: height-tracked), and that its uncorrelated model differs more, mostly
 - The first part {_holds(similar, len(near))}: with Beckmann the correlated model sends at most
   {100 * AGREES:g} % of the light elsewhere in {similar} of {len(near)} cases. It is
   {percent(middle)} % in the median case, and {percent(worst.apart)} % in the worst,
-  {cases([worst.case])}.
+  {in_words([worst.case])}.
 - The second part {_holds(at(farther, _GRAZING), count)} at θ = {_GRAZING:g}, where the uncorrelated
   model is farther off, by more than the noise, in {at(farther, _GRAZING)} of {count} cases. At all
   angles together it is that in {len(farther)} of {len(near)}, and nearer in {len(closer)}:
-  {cases(one.case for one in closer)}.
+  {in_words(one.case for one in closer)}.
 - With GGX, which the supplement's figures leave out, the correlated model is off by up to
-  {percent(worst_ggx.apart)} % ({cases([worst_ggx.case])}).
+  {percent(worst_ggx.apart)} % ({in_words([worst_ggx.case])}).
 
 Distance from the height-tracked model in per cent of the light, mean (and largest):
 
@@ -212,7 +215,7 @@ fields are Gaussian. Energies: [ggx_energies.csv](ggx_energies.csv).
 
 
 def _holds(count: int, of: int) -> str:
-    """What to say of a claim that is right in ``count`` cases."""
+    """The verdict on a claim that is right in ``count`` cases ``of`` all."""
     if count == of:
         return "is confirmed"
     return "holds in most cases" if 2 * count > of else "is contradicted"

@@ -119,6 +119,7 @@ def test_models_are_as_the_oracle_finds_them(number, model, theta):
         assert np.all(np.abs(apart[hit]) < bound[hit])
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(("number", "theta"), [(6, 1.0), (11, 0.0), (12, 0.5), (15, 1.0)])
 def test_the_simulated_surface_is_as_other_sheets_find_it(number, theta):
     figure = FIGURES[number]

@@ -8,7 +8,7 @@ from osl.oracle.surface import BECKMANN, GGX
 from tools.figures.cases import ALPHAS, COLUMNS, LOBE_FIGURES, MATERIALS, MODELS, THETAS
 from tools.figures.findings import Comparison, Findings
 from tools.figures.lobes import BOUNCES, LOBES, Estimate, Lobes
-from tools.figures.markdown import cases, thousandths
+from tools.figures.markdown import in_words, thousandths
 from tools.figures.verdict import OURS, agreement, claim, largest
 
 
@@ -94,5 +94,5 @@ def test_the_largest_differences_have_their_numbers():
 
 def test_words_for_cases_and_numbers():
     found = [("diffuse", (1.0, 1.0), 0.0), ("diffuse", (1.0, 1.0), 1.5), ("x", (1.0, 0.1), 0.5)]
-    assert cases(found) == "diffuse, α = 1 (θ = 0, 1.5); x, α = (1, 0.1) (θ = 0.5)"
+    assert in_words(found) == "diffuse, α = 1 (θ = 0, 1.5); x, α = (1, 0.1) (θ = 0.5)"
     assert [thousandths(x, True) for x in (0.0012, -0.0012, -1e-6)] == ["+1.2", "−1.2", "0.0"]
