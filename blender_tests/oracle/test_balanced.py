@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The balanced dielectric: the same means as the plain one's, with less noise where it counts."""
+"""The balanced dielectric has the plain one's means, and less noise in reflected light."""
 
 from dataclasses import replace
 
@@ -27,13 +27,13 @@ def test_energies_are_the_dielectrics(ior):
         seen = b.mean[..., 0] > 1e-3
         z = (a.mean - b.mean)[..., 0] / np.sqrt(a.variance + b.variance + 1e-20)[..., 0]
         assert seen.sum() >= 4
-        # one chance in 16 000 each
+        # a right one fails once in 16 000 comparisons
         assert np.abs(z[seen]).max() < 4.0
 
 
 @pytest.mark.parametrize("model", ["CORRELATED", HEIGHT_TRACKED])
 def test_reflected_light_has_less_noise(model):
-    """What the references need: the reflected part of the further bounces."""
+    """The references need the reflected part of the bounces after the first."""
     wi, wo = direction(0.4), direction(0.9, 2.0)
     found, wanted = (
         evaluate(wi, wo, Surface(1.0, 1.0, GGX, kind(1.5), model), 16, 200_000, 2)
@@ -51,7 +51,7 @@ def test_reflected_light_has_less_noise(model):
     ids=lambda case: case.name,
 )
 def test_pictures_miss_no_peak_of_the_bidirectional_estimator(case):
-    """Some of a reference's points, by both estimators, up to 8 bounces."""
+    """Both estimators agree on some of a reference's points, up to 8 bounces."""
     view = case.light.view(resolution=18, subsamples=1)
     axes = [axis[view.mask][:, 0][::3] for axis in view.axes]
     wi = to_local(view.viewer[view.mask][:, 0][::3], axes)
@@ -63,6 +63,6 @@ def test_pictures_miss_no_peak_of_the_bidirectional_estimator(case):
     difference = (one.total - two.total)[:, 0]
     variance = (one.total_variance + two.total_variance)[:, 0]
     assert abs(difference.sum()) < 4.0 * np.sqrt(variance.sum())
-    # and no pixel is far off by more than its noise and 1 % of the brightest
+    # and no pixel is off by more than its noise and 1 % of the brightest
     brightest = one.total[:, 0].max()
     assert np.all(np.abs(difference) < 5.0 * np.sqrt(variance) + 0.01 * brightest)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Statistics of random height fields against what they were made for.
+"""Random height fields have the statistics that they were made for.
 
-One field is one sample: its facets are correlated over some cells, so errors are taken from the
-scatter of many fields. Means are held within 4 standard errors of what they should be.
+One field is one sample, because its facets are correlated over some cells. So the scatter of many
+fields gives the errors. Means must be within 4 standard errors of the right value.
 """
 
 import numpy as np
@@ -33,7 +33,7 @@ def deviation(samples, expected):
     return (samples.mean(axis=0) - expected) / error, error
 
 
-# seeds give the same heights for every alpha, so that more of them would test nothing new
+# a seed gives the same heights for every alpha, so more alphas would test nothing new
 @pytest.mark.parametrize(("alpha", "resolution"), [((0.25, 0.25), 3), ((1.0, 0.1), 6)])
 def test_slopes_have_the_moments_of_the_surface(alpha, resolution):
     surface = Surface(*alpha, BECKMANN)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole walks of the height-tracked model against integrals over heights, and against a simulation
-in terms of heights, not their distribution function, and of directions in the common frame.
+"""Whole walks of the height-tracked model agree with integrals and with a simulation.
 
-Estimates are held within 4 standard errors, with fixed seeds, as in test_models.py.
+The integrals are over heights. The simulation keeps heights, not their distribution function, and
+directions in the common frame. Estimates must be within 4 standard errors, with fixed seeds, as in
+test_models.py.
 """
 
 import numpy as np

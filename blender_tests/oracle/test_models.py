@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Energies of the three models, each for conductor, dielectric and diffuse facets.
 
-Where nothing else is said estimates are held within 4 standard errors. Seeds are fixed, so a pass
-stays a pass; a right walk would fail one comparison in 16 000.
+Estimates must be within 4 standard errors, unless a test says otherwise. Seeds are fixed, so a pass
+stays a pass. A right walk would fail one comparison in 16 000.
 """
 
 import numpy as np
@@ -41,8 +41,10 @@ every_arrival = pytest.mark.parametrize(("material", "side"), ARRIVALS, ids=name
 @every_ndf
 @every_arrival
 def test_walks_lose_nothing(material, side, distribution, model):
-    """Bookkeeping: each walk splits its weight into a part that leaves and one that stays, so the
-    sum is exact whatever these parts are. That they are right test_values.py tells."""
+    """Each walk splits its weight into a part that leaves and one that stays.
+
+    So the sum is exact, whatever the parts are. test_values.py tests the parts.
+    """
     for alpha in ALPHAS:
         surface = Surface(*alpha, distribution, material, model)
         found = energies(side * DIRECTIONS, surface, 64, 300, 1, roulette=0)
@@ -114,8 +116,10 @@ TRANSMITTED = table(
 
 
 def check_against_table(found, row, rounding):
-    """That program's own error is not given: it is that of 1e5 paths that each leave at one bounce,
-    as in test_walk.py, where the correlated conductor is tested."""
+    """That program gives no error, so it is that of 1e5 paths that each leave at one bounce.
+
+    test_walk.py does the same for the correlated conductor.
+    """
     row = np.array(row)
     error = np.sqrt(found.variance[: row.size, 0] + row * (1.0 - row) / 1e5)
     assert np.all(np.abs(found.mean[: row.size, 0] - row) < 4.0 * error + rounding)
@@ -142,7 +146,7 @@ def test_dielectrics_agree_with_an_earlier_program(
 
 @every_model
 def test_first_energy_of_ggx_1_in_closed_form(model):
-    # as in test_walk.py; straight up nothing is masked, so that all three models have 1 - ln 2
+    # as in test_walk.py; nothing is masked straight up, so all three models have 1 - ln 2
     found = energies(direction(0.0), Surface(1.0, 1.0, model=model), 1, 100_000, 6).both
     assert abs(found.mean[0, 0] - (1.0 - np.log(2.0))) < 4.0 * found.standard_error[0, 0]
     assert found.standard_error[0, 0] < 1.5e-3

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reciprocity: of the uncorrelated model (eqs. 18-24, Fig. 17), and its lack in the correlated one
-(eqs. 25-26).
+"""The uncorrelated model is reciprocal (eqs. 18-24, Fig. 17), the correlated one not (eqs. 25-26).
 
 With f the density per steradian of leaving along wo, a BSDF that is reciprocal has
 f(wi, wo) |cos i| / n_o^2 = f(wo, wi) |cos o| / n_i^2, n being the index on each direction's side.
@@ -25,7 +24,7 @@ NAMES = ["conductor", "diffuse", "dielectric", "dielectric from inside"]
 
 
 def directions_above(rng, count):
-    """Even in the cosine of their angle, so that grazing ones are as frequent as others."""
+    """Random directions, even in the cosine of their angle, so grazing ones are as frequent."""
     return direction(np.arccos(rng.random(count)), 2.0 * np.pi * rng.random(count))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tracer on sheets where every path is known: planes and grooves.
+"""The tracer on planes and grooves, on which every path is known.
 
 A groove has two planes of slope tan(beta). Reflected on one plane and then the other, a direction
 across the groove turns by a multiple of its opening angle, so the bounces can be counted by hand.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reference files: how they are stored, and that they are what the oracle makes today."""
+"""The reference files are stored whole, and are what the oracle makes today."""
 
 import hashlib
 import json
@@ -58,7 +58,7 @@ def test_every_case_has_its_file_and_nothing_else_is_there():
 
 
 def _rows(lit):
-    """ROWS, or where too little is lit on them (a narrow highlight) five through its middle."""
+    """ROWS, or five rows through the middle of a highlight too narrow to light ROWS enough."""
     if lit[ROWS].sum() > LIT_PIXELS:
         return ROWS
     middle = int(np.median(np.nonzero(lit)[0]))

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values of the three models against their energies, how fast bounces converge, and how fast both
-are computed.
+"""Values of the three models agree with their energies, bounces converge, and both are fast.
 
-Estimates are held within 4 standard errors, with fixed seeds, as in test_models.py.
+Estimates must be within 4 standard errors, with fixed seeds, as in test_models.py.
 """
 
 import time
@@ -51,8 +50,10 @@ every_material = pytest.mark.parametrize("material", MATERIALS, ids=name)
 
 
 def leaving_zones(v, surface, below=False):
-    """Whether paths crossed, and the zone of all o above the horizon of their side to which facets
-    turn ``v``."""
+    """Whether paths crossed, and the zone of all o to which facets turn ``v``.
+
+    The zone is above the horizon of its side.
+    """
     transmits = surface.material.transmits
     zones = facet_zones(v, float(surface.material.eta(np.array(below))) if transmits else None)
     for crossed, zone in enumerate(zones):
@@ -72,7 +73,7 @@ def chance_to_stay(v, surface, below):
 
 
 def mean_chance_to_leave(v, surface):
-    """The same integral, and over the facets that ``v`` sees, where these are matte."""
+    """The integral of turning from ``v`` and leaving, over the matte facets that ``v`` sees."""
     m, share = visible_normals(v, surface, 24)
     share = share * dot(v, m) * D(m, surface)
     assert share.sum() == pytest.approx(float(sigma(v, surface)), rel=1e-3)
@@ -83,9 +84,11 @@ def mean_chance_to_leave(v, surface):
 
 
 def survival(surface):
-    """What is left after bounce 1, 2, ..., 40 of walks from 1 rad; while that is more than 0.1 %,
-    its ratio to what was left a bounce before; and the ratio's error, that of a ratio of means over
-    independent sets of walks."""
+    """Energy left after bounce 1, 2, ..., 40 of walks from 1 rad, its ratio to the bounce before.
+
+    The ratio is given while more than 0.1 % is left. Its error, the third result, is that of a
+    ratio of means over independent sets of walks.
+    """
     sets = 20
     wi = np.broadcast_to(direction(1.0), (sets, 3))
     found = energies(wi, surface, 40, 1000, 8, roulette=0).both
@@ -114,8 +117,8 @@ def case_name(value):
 @every_ndf
 @pytest.mark.parametrize(("material", "model"), BOUNDED, ids=case_name)
 def test_bounces_converge_geometrically(material, distribution, model):
-    # The greatest chance to stay, over all directions that a path can arrive from, is a rate: what
-    # is left after k bounces is at most its k-th power.
+    # The rate is the greatest chance to stay, over all directions of arrival. What is left after k
+    # bounces is at most its k-th power.
     surface = Surface(1.0, 1.0, distribution, material, model)
     thetas = np.linspace(0.0, 3.1, 32)  # nearly straight down
     sides = (False, True) if material.transmits else (False,)
@@ -131,9 +134,8 @@ def test_bounces_converge_geometrically(material, distribution, model):
 @every_ndf
 @pytest.mark.parametrize(("material", "model"), MEASURED, ids=case_name)
 def test_bounces_converge_where_no_rate_holds_for_all_paths(material, distribution, model):
-    # From far down in the surface (which paths that arrive straight downwards are in the correlated
-    # model) hardly any path leaves, if facets do not turn it round. What is left from one bounce to
-    # the next is measured.
+    # Hardly any path leaves from far down in the surface, if facets do not turn it round. In the
+    # correlated model a path straight downwards is there. So the ratio is measured.
     surface = Surface(1.0, 1.0, distribution, material, model)
     left, ratio, error = survival(surface)
     assert np.all(ratio + 4.0 * error < 0.8)  # measured 0.1 to 0.7
@@ -141,7 +143,7 @@ def test_bounces_converge_where_no_rate_holds_for_all_paths(material, distributi
 
 
 REPEATS = 16
-# as far from the mean of 16 as 4 standard errors are where these are known
+# for 16 repeats as improbable as 4 known standard errors
 LIMIT = stats.t.isf(stats.norm.sf(4.0), REPEATS - 1)
 
 
@@ -247,8 +249,7 @@ SPEEDS = [
 def test_energies_and_a_value_take_at_most_three_seconds_each(
     material, distribution, model, roulette
 ):
-    """100 000 walks of 20 bounces, and a lobe of one wo; each further one costs the connections to
-    it alone."""
+    """100 000 walks of 20 bounces, and a lobe of one wo; another wo costs only its connections."""
     surface = Surface(1.0, 1.0, distribution, material, model)
     start = time.process_time()
     found = energies(direction(1.0), surface, 20, 100_000, 1, roulette)
