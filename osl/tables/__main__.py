@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fit the shaders' tables anew: `python -m osl.tables`, or `make tables`.
+"""Fit the shaders' tables again: `python -m osl.tables`, or `make tables`.
 
 python -m osl.tables                     writes every header (see --help for one alone)
 python -m osl.tables --check             fails if a header is older than what made it
@@ -15,7 +15,7 @@ from .run import run
 FOLDER = Path(__file__).resolve().parent
 ORACLE = FOLDER.parent / "oracle"
 SHARED = ("closures.py", "fitting.py", "grid.py", "header.py")
-# What decides on the values besides the generators.
+# The parts of the oracle that decide on the values.
 MODEL = ("estimate.py", "masking.py", "materials.py", "ndf.py", "visible.py", "walk.py")
 
 FITTED = {
@@ -27,7 +27,7 @@ FITTED = {
 
 
 def stamp(name: str) -> str:
-    """What a header's sources are now."""
+    """The stamp of a header's sources as they are now."""
     own = (f"{name}.py", *getattr(FITTED[name], "SOURCES", ()))
     return header.stamp([*(FOLDER / s for s in own + SHARED), *(ORACLE / s for s in MODEL)])
 

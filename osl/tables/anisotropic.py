@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The further bounces of an anisotropic rough metal as three closures, for anisotropic_lobes.h.
 
-Two microfacet lobes whose normals are tilted in the plane of the stretched view, and a ramp about
-the normal. Surfaces have two alphas and views two angles, too many for a table of nodes: what
-describes the closures are polynomials in these four, fitted to all views at once.
+The closures are a ramp about the normal, and two microfacet lobes whose normals tilt in the plane
+of the stretched view. Surfaces have two alphas and views two angles, too many for a table of nodes.
+So polynomials in these four describe the closures, fitted to all views at once.
 """
 
 import numpy as np
@@ -28,14 +28,14 @@ from .fitting import SEED
 from .polynomial import Polynomial, least
 from .run import Run
 
-# What decides on the values besides this file and the shared ones.
+# Files that decide on the values, besides this one and the shared ones.
 SOURCES = ("anisotropic_views.py", "conductor.py", "polynomial.py")
 
 DISTRIBUTIONS = (GGX, BECKMANN)
-VIEWS = 512  # that shapes are fitted to
-ENERGY_VIEWS = 2048  # that energies are fitted to
-STEPS = (10, 5)  # of the fit: with all views alike, and with those that fit worst pressed
-FAINTEST = 1e-3  # energy of a view that shapes are fitted to
+VIEWS = 512  # for the fit of the shapes
+ENERGY_VIEWS = 2048  # for the fit of the energies
+STEPS = (10, 5)  # of the fit: first all views count alike, then the worst count more
+FAINTEST = 1e-3  # views of less energy take no part in the fit of shapes
 
 POLYNOMIALS = (
     Polynomial("ENERGY", "energy over stretched_cosine (Beckmann), its root (GGX)", 7, 4, 0.0, 2.0),
@@ -55,22 +55,22 @@ POLYNOMIALS = (
     Polynomial("REST", "energy of bounces above 3 over that of all above 2", 2, 4, 0.0, 0.99),
 )
 ENERGY, SHAPE, COLOUR = POLYNOMIALS[0], POLYNOMIALS[1:11], POLYNOMIALS[11:]
-# As many of a shape's parameters are factors of closures; the others are LOBE for each microfacet
-# lobe.
+# The first LINEAR parameters of a shape are factors of closures. Each microfacet lobe has LOBE
+# more.
 LINEAR, LOBE = 4, 3
-STEP = (0.02, 0.01, 0.01)  # of the differences by those of a lobe
+STEP = (0.02, 0.01, 0.01)  # of the finite differences by a lobe's parameters
 LOW, HIGH = np.array([one.low for one in SHAPE]), np.array([one.high for one in SHAPE])
 START = {
     GGX: (0.57, 0.19, 0.35, 0.24, 0.27, 1.0, 1.1, -0.44, 1.7, 1.9),
     BECKMANN: (0.6, 0.25, 0.1, 0.04, 0.6, 0.64, 0.67, -0.45, 0.9, 0.73),
 }
-ENERGY_WEIGHT = 8.0  # of an error in energy, beside the relative error of the shape
+ENERGY_WEIGHT = 8.0  # weight of an error in energy against the relative error of the shape
 STIFFNESS = 1e-7  # what a coefficient of degree 0 costs, squared
-NONLINEAR_STIFFNESS = 10.0  # times as much where a coefficient changes lobes
+NONLINEAR_STIFFNESS = 10.0  # times as much for a coefficient that changes a lobe
 
 
 def bent(normal: np.ndarray, wi: np.ndarray) -> np.ndarray:
-    """What Cycles makes of a closure's normal: mirrored there the view stays above the surface."""
+    """The normal that Cycles uses: it bends one until the mirrored view is above the surface."""
     lift = min(0.9 * wi[2], 0.01)
     if 2.0 * (normal @ wi) * normal[2] - wi[2] >= lift:
         return normal
@@ -108,8 +108,8 @@ def columns(view: View, o: np.ndarray, shape: np.ndarray) -> np.ndarray:
 
 
 class Fit:
-    """Least squares of all views of one distribution together, for the coefficients of the shapes'
-    polynomials."""
+    """Fits the coefficients of the shapes' polynomials to all views of one distribution together,
+    by least squares."""
 
     def __init__(self, samples: list[Sample]) -> None:
         self.samples = samples
@@ -136,7 +136,7 @@ class Fit:
     def residual(
         self, index: int, shape: np.ndarray, slopes: bool
     ) -> tuple[np.ndarray, np.ndarray]:
-        """What one view misses ``(n + 1,)``, in units of its norm and, last, of energy; and its
+        """The misfit of one view ``(n + 1,)``, in units of its norm and, last, of energy, with its
         derivatives by the parameters ``(n + 1, 10)``."""
         s, rule = self.samples[index], self.rules[index]
         legal = np.clip(shape, LOW, HIGH)
@@ -159,23 +159,23 @@ class Fit:
                 jacobian[:, i] = scaled(factor[lobe] * change / STEP[which])
         missed = scaled(s.value - closures @ factor)
         missed[-1] = ENERGY_WEIGHT * (s.energy - rule.energy(closures @ factor))
-        # A limit holds a parameter back that wants to go beyond it.
+        # A parameter at its limit does not move further out.
         pull = jacobian.T @ missed
         jacobian[:, (shape < LOW) & (pull < 0.0) | (shape > HIGH) & (pull > 0.0)] = 0.0
         return missed, jacobian
 
     def errors(self, found: np.ndarray) -> np.ndarray:
-        """Of each view, relative image L2 and energy, ``(views, 2)``."""
+        """The relative image L2 and the error in energy of each view, ``(views, 2)``."""
         missed = [self.residual(i, one, False)[0] for i, one in enumerate(self.shapes(found))]
         return np.array([[np.sqrt((m[:-1] ** 2).sum()), m[-1] / ENERGY_WEIGHT] for m in missed])
 
     def cost(self, found: np.ndarray) -> float:
-        """What is to be least."""
+        """The value that the fit minimises."""
         squares = self.errors(found) ** 2 @ [1.0, ENERGY_WEIGHT**2]
         return float((self.weight * squares).sum() / self.weight.sum() + self.stiffness @ found**2)
 
     def improve(self, steps: int) -> None:
-        """Gauss and Newton's method, damped by Levenberg and Marquardt's."""
+        """Improve the coefficients by the Levenberg-Marquardt method."""
         damping, cost = 1e-3, self.cost(self.found)
         weight = self.weight / self.weight.sum()
         for _ in range(steps):
@@ -219,13 +219,13 @@ def colours(samples: list[Sample]) -> list[np.ndarray]:
 
 
 def near_horizon(view: View) -> float:
-    """What the energy's polynomial is multiplied with, as energies vanish at the horizon."""
+    """The factor of the energy's polynomial: it vanishes at the horizon, as energies do."""
     return view.upright if view.surface.distribution == BECKMANN else np.sqrt(view.upright)
 
 
 def energy(distribution: str, shapes: list[np.ndarray]) -> np.ndarray:
-    """The coefficients of the energy's polynomial with which closures of these ``shapes`` have all
-    the missing energy."""
+    """The coefficients of the energy's polynomial that give closures of these ``shapes`` all the
+    missing energy."""
     rows, wanted = [], []
     chosen = views(distribution, ENERGY_VIEWS, SEED + 1)
     place = np.array([view.place for view in chosen])
@@ -252,7 +252,7 @@ def fitted(distribution: str, samples: list[Sample]) -> tuple[list[np.ndarray], 
 
 
 def body(run: Run) -> tuple[list[str], str]:
-    """What the header says about itself, and its function."""
+    """The header's own description, and its function."""
     chosen = [(view, i) for d in DISTRIBUTIONS for i, view in enumerate(views(d, VIEWS, SEED))]
     samples = run(sampled, chosen, "anisotropic metal, walks")
     samples = [s for s in samples if s.resolved and s.energy > FAINTEST]

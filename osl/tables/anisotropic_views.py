@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Anisotropic white metal, seen from anywhere: what its further bounces send where."""
+"""Walks on anisotropic white metal from many views: where its further bounces send light."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,7 @@ from .fitting import BOUNCES, Exits, share_above
 
 WALKS = 1 << 12  # a view
 NARROWEST = 0.1  # aspect, alpha_y over alpha_x
-RESOLVED = 0.003  # error of the first bounce's energy up to which a rule resolves a view
+RESOLVED = 0.003  # a rule resolves a view if its error of the first bounce's energy is below this
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def exits(view: View, count: int = 32) -> Exits:
 
 
 def missing_energy(view: View, count: int = 60) -> float:
-    """Energy of all bounces but the first where facets are white mirrors: 1 minus the first's."""
+    """Energy of all further bounces between white mirrors: 1 minus that of the first bounce."""
     wi, surface = view.wi, view.surface
     m, weight = visible_normals(wi, surface, count)
     c = np.maximum(m @ wi, 0.0)
@@ -142,7 +142,7 @@ def further(
 
 @dataclass(frozen=True)
 class Sample:
-    """What a view is fitted to: the further bounces' value ``(n,)`` at its exits, their ``energy``,
+    """The data of a view's fit: the further bounces' value ``(n,)`` at its exits, their ``energy``,
     the ``norm`` of all bounces as image L2, and the parameters of the ``colour`` ``(4,)``."""
 
     view: View

@@ -26,8 +26,8 @@ def knots(x: np.ndarray) -> np.ndarray:
 def diffuse_ramp(o: np.ndarray, axis: np.ndarray) -> np.ndarray:
     """``(n, KNOTS)``: each knot's share in a ramp over the cosine to ``axis`` ``(3,)``, over pi.
 
-    About another axis than the normal Cycles fades a diffuse closure near the horizon, by GGX
-    masking whose alpha^2 is an eighth of the squared tangent between both.
+    If ``axis`` is not the normal, Cycles fades a diffuse closure near the horizon by GGX masking.
+    Its alpha^2 is an eighth of the squared tangent between axis and normal.
     """
     cosine = o @ axis
     alpha = np.sqrt(0.125 * max(1.0 / axis[2] ** 2 - 1.0, 0.0))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The further bounces of a rough metal as two closures, for conductor_lobes.h.
 
-Bounce 2 and all later ones each have a ramp about the normal and share a microfacet lobe, whose
-mirror direction lies lower or higher than the view's. Light of bounce 2 is stronger there, and the
-less of it is left for later bounces, the more so.
+Bounce 2 and the later bounces each have a ramp about the normal. They share a microfacet lobe whose
+mirror direction lies lower or higher than the view's. The less energy is left for later bounces,
+the more of bounce 2 goes there.
 """
 
 from dataclasses import replace
@@ -24,17 +24,17 @@ from .run import Run
 ALPHAS = COSINES = 12  # nodes of the shapes
 ENERGY_NODES = 32  # of the energies, along each axis
 
-# Of the microfacet lobe: the mirror direction's distance from the normal over the view's (as sines)
-# and both alphas over the surface's.
+# Limits of the microfacet lobe's shape: sine of the mirror direction over the view's, and both
+# alphas over the surface's.
 LOWEST = (0.0, 0.3, 0.3)
 HIGHEST = (3.0, 3.0, 3.0)
 START = {False: (1.0, 1.05, 1.05), True: (1.0, 0.6, 0.6)}  # GGX, Beckmann
 FARTHEST = 0.997  # sine of a mirror direction
-# What a step of these parameters by 1 must gain in squared error, so that they are smooth where
-# they hardly matter.
+# A step of these parameters by 1 must gain this much squared error. So they are smooth where they
+# hardly matter.
 INERTIA = 3e-6
-# What that lobe's energy costs, as a root of squared error: where a ramp does as well, it is the
-# ramp.
+# The cost of that lobe's energy, as a root of squared error. It makes a ramp win if it does as
+# well.
 RELUCTANCE = 0.1
 
 LAYOUT = (
@@ -60,7 +60,7 @@ SHAPE = slice(2 * KNOTS + 3, 2 * KNOTS + 6)  # of the microfacet lobe
 
 
 def missing_energy(surface: Surface, cosine: float) -> float:
-    """Energy of all bounces but the first where facets are white mirrors: 1 minus the first's."""
+    """Energy of all further bounces between white mirrors: 1 minus that of the first bounce."""
     wi = view(cosine)
     m, weight = visible_normals(wi, surface, 80)
     c = np.maximum(m @ wi, 0.0)
@@ -112,7 +112,7 @@ def node(surface: Surface, cosine: float, start: np.ndarray) -> tuple[np.ndarray
         )
         return fit(with_lobe(legal), bounces[1], scale, reluctance=RELUCTANCE)[1] + inertia
 
-    # Along the normal no plane of incidence is given: both alphas are the same.
+    # There is no plane of incidence along the normal, so both alphas are the same.
     steps = np.diag([-0.2, 0.15, 0.15]) if cosine < 1.0 else np.array([[0.0, 0.15, 0.15]])
     best = minimize(
         lambda x: cost(start + x @ steps),
@@ -171,8 +171,8 @@ def fresnel_cosines(surface: Surface, wi: np.ndarray) -> tuple[float, float]:
 def column(distribution: str, index: int) -> tuple[np.ndarray, np.ndarray]:
     """All nodes of one column of the table, ``(ALPHAS, VALUES)``, and their errors ``(ALPHAS,)``.
 
-    From rough to smooth, each fitted from the shape that the one before has. The first, a mirror,
-    has the shapes of the next one: only their proportions matter.
+    They go from rough to smooth, and each fit starts from the shape before. A mirror takes the
+    shapes of its neighbour, because only their proportions matter.
     """
     values, errors = np.zeros((ALPHAS, VALUES)), np.zeros(ALPHAS)
     start = np.array(START[distribution == BECKMANN])
@@ -198,7 +198,7 @@ def tables(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def body(run: Run) -> tuple[list[str], str]:
-    """What the header says about itself, and its functions."""
+    """The header's own description, and its functions."""
     shapes, energy, errors = tables(run)
     parts = [
         header.function(

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The further bounces of rough glass as four closures, for dielectric_lobes.h.
 
-What goes through: a lobe about a tilted axis, which is a refraction so steep that it follows its
-facets' normals whatever the view, and a cosine about the normal. What comes back: a microfacet
-about a tilted normal, and a cosine. Their energies are what Cycles' own glass leaves of white
-light, or what the true first bounce leaves.
+Light that goes through has a lobe about a tilted axis, and a cosine about the normal. That lobe is
+a refraction so steep that it follows its facets' normals whatever the view. Light that comes back
+has a microfacet lobe about a tilted normal, and a cosine. Their energies are what Cycles' own
+glass, or the true first bounce, leaves of white light.
 
-Nodes are those of grid.py in alpha and in the view's cosine, and even in the root of the
-logarithm of the index, for either side of the surface. Energies are kept as their roots, which are
+Nodes are those of grid.py in alpha and in the view's cosine. In the index they are even in the root
+of its logarithm, on either side of the surface. Tables hold the roots of energies, which are
 straighter.
 """
 
@@ -34,19 +34,19 @@ from .fitting import BOUNCES, SEED, view
 from .run import Run
 
 WALKS = 1 << 17
-SOURCES = ("dielectric_energy.py",)  # what decides on the values besides this file
+SOURCES = ("dielectric_energy.py",)  # files that decide on the values, besides this one
 
 # Nodes of the shapes: indices, alphas, cosines.
 SHAPES = (4, 6, 7)
 
 STEEP_INDEX = 1000.0
-# Of the steep lobe's half-width (rad) and of the microfacet's alpha, which loses light if wider.
+# Limits of the steep lobe's half-width (rad) and of the microfacet's alpha. Wider ones lose light.
 NARROWEST, WIDEST = (0.12, 0.03), (0.9, 0.7)
-# Of the ramp about the normal that has the rest of what comes back.
+# Knots of the ramp about the normal that has the rest of the light coming back.
 PLATEAU = (0.0, 0.6, 0.85, 1.0, 0.85, 0.65, 0.55, 0.5)
 STEEP_START = 0.25  # width over alpha
-# What a step by 1 in these parameters must gain in squared error relative to the fitted part, so
-# that they are smooth where they hardly matter.
+# A step by 1 in these parameters must gain this much squared error, relative to the fitted part. So
+# they are smooth where they hardly matter.
 INERTIA = 2e-3
 
 LAYOUT = (
@@ -119,9 +119,9 @@ DIRECTIONS = BINS.o
 
 
 def orders(surface: Surface, wi: np.ndarray) -> tuple[np.ndarray, float]:
-    """White glass: densities ``(2, 2, n)`` at BINS of bounce 1 and of further ones, of what comes
-    back and of what goes through, each in the frame of its side; and the mean order of further
-    bounces."""
+    """White glass: densities ``(2, 2, n)`` at BINS, and the mean order of further bounces. The
+    first axis is bounce 1 and further ones, the second light that comes back and goes through, each
+    in the frame of its side."""
     masses, order = np.zeros((2, 2, DIRECTIONS.shape[0])), 0.0
     start = np.broadcast_to(wi, (WALKS, 3))
     for k, step in enumerate(bounces(start, surface, BOUNCES, np.random.default_rng(SEED))):
@@ -165,8 +165,8 @@ def steep_lobe(wi: np.ndarray, angle: float, width: float) -> tuple[np.ndarray, 
 def lobe_energy(
     wi: np.ndarray, shape: np.ndarray, distribution: str, crossed: bool, count: int = 24
 ) -> float:
-    """What Cycles' samples of a tilted lobe of weight 1 keep: of the steep one, or of the
-    microfacet's reflection. ``shape``: the normal's angle, the lobe's alpha."""
+    """The energy that Cycles' samples of a tilted lobe of weight 1 keep, steep or microfacet.
+    ``shape``: the normal's angle, the lobe's alpha."""
     normal, alpha = tilted(shape[0]), shape[1]
     axes = np.array([[normal[2], 0.0, -normal[0]], [0.0, 1.0, 0.0], normal])
     surface, v = Surface(alpha, alpha, distribution), axes @ wi
@@ -215,7 +215,7 @@ def part(
 
     def fit(shape: np.ndarray) -> tuple[float, float, float]:
         found, sampled = values(shape)
-        # Of the energy `share` is the lobe's, whose values are then share / sampled of it.
+        # The lobe has `share` of the energy, so its values are scaled by share / sampled.
         away = energy * (found / max(sampled, 1e-6) - broad)
         wanted = density - energy * broad
         share = float(np.clip((away @ wanted) / max(away @ away, 1e-30), 0.0, 1.0))
@@ -305,7 +305,7 @@ def function(name: str, comment: str, table: np.ndarray, sides: int = 1) -> str:
 
 
 def body(run: Run) -> tuple[list[str], str]:
-    """What the header says about itself, and its functions."""
+    """The header's own description, and its functions."""
     values, errors = shapes(run)
     columns = header.columns("White glass:", "GLASS", LAYOUT)
     missing = header.columns("Energies of white glass:", "GLASS", MISSING_LAYOUT)

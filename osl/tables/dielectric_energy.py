@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is left of white light by the first bounce of glass, and by Cycles' own closure for it."""
+"""The energy that the first bounce of white glass leaves, and that Cycles' closure leaves."""
 
 import numpy as np
 
@@ -20,7 +20,7 @@ ENERGIES = {False: (7, 10, 10), True: (11, 12, 12)}
 
 
 def indices(count: int, inside: bool) -> np.ndarray:
-    """The nodes' index beyond the surface over that before it, ``(count,)``."""
+    """The nodes' index beyond the surface over the index before it, ``(count,)``."""
     ends = np.sqrt(np.log([LOWEST_INDEX, HIGHEST_INDEX]))
     index = np.exp(np.linspace(*ends, count) ** 2)
     return 1.0 / index if inside else index

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All bounces of a rough matte surface as three closures, for diffuse_lobes.h.
 
-A ramp about the normal, one about an axis tilted towards the viewer, and Oren and Nayar's lobe. The
-first bounce is brightest towards the viewer and the second away from it, so the second may take
-from what the first gives to a closure: with an albedo of at most 1, something is always left.
+They are a ramp about the normal, a ramp about an axis tilted towards the viewer, and Oren and
+Nayar's lobe. The first bounce is brightest towards the viewer, the second away from it. So the
+second may subtract from what the first gives to a closure. With an albedo of at most 1, something
+is always left.
 """
 
 import numpy as np
@@ -48,14 +49,14 @@ def node(surface: Surface, cosine: float) -> tuple[np.ndarray, float]:
     tilted = diffuse_ramp(EXITS.o, tilted_axis())
     smooth = surface.alpha_x <= grid.SMALLEST_ALPHA
     if smooth or cosine == 1.0:
-        tilted *= 0.0  # along the normal no direction is the viewer's side
+        tilted *= 0.0  # for a view along the normal, no side is the viewer's
     if smooth:
-        lobe *= 0.0  # these nodes stand for all views, which a flat surface does not know
+        lobe *= 0.0  # a flat surface looks the same from all views, and these nodes stand for all
     columns = np.hstack([upright, tilted, lobe])
     first, _ = fit(columns, bounces[0], scale, ramps=2)
     later_columns = np.hstack([upright, lobe])
     later, _ = fit(later_columns, bounces[2] + bounces[3], scale)
-    # What the first leaves to be desired the second makes good, at least on white surfaces.
+    # The second bounce corrects the fit of the first, at least on white surfaces.
     left = bounces.sum(axis=0) - columns @ first - later_columns @ later
     second, error = fit(columns, left, scale, ramps=2, lowest=-first)
     share = share_above(*EXITS.energy(bounces[2:].T))
@@ -72,7 +73,7 @@ def row(distribution: str, index: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def body(run: Run) -> tuple[list[str], str]:
-    """What the header says about itself, and its functions."""
+    """The header's own description, and its functions."""
     rows = [(d, i) for d in (GGX, BECKMANN) for i in range(ALPHAS)]
     found = run(row, rows, "matte surfaces")
     values = np.array([one[0] for one in found]).reshape(2, ALPHAS, COSINES, VALUES)

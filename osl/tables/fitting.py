@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Least squares over the hemisphere: closures to what walks find."""
+"""Fits closures to the light that walks find, by least squares over the hemisphere."""
 
 from dataclasses import dataclass
 
@@ -14,8 +14,8 @@ BOUNCES = 48  # of GGX at alpha 1, less than 1e-9 of the energy is left after 32
 WALKS = 1 << 15
 SEED = 5
 
-# What second differences of ramps may cost, as a squared error relative to all bounces, so that
-# noise of the walks makes no ripples.
+# The cost of a ramp's second differences, as a squared error relative to all bounces. It keeps the
+# walks' noise from making ripples.
 STIFFNESS = 1e-3
 
 
@@ -33,8 +33,8 @@ class Exits:
 
 
 def exits(count: int = 18) -> Exits:
-    """Gauss' rule in the roots of z and of the azimuth from the forward direction: where surfaces
-    are smooth and views graze, light goes forward along the horizon."""
+    """Gauss' rule in the roots of z and of the azimuth from the forward direction. It is dense
+    where smooth surfaces send light of grazing views: forward, along the horizon."""
     node, weight = np.polynomial.legendre.leggauss(count)
     root, weight = (node + 1.0) / 2.0, weight / 2.0
     square, weight = root * root, weight * 2.0 * root
@@ -75,8 +75,8 @@ def fit(
     ``scale``. The first ``ramps`` times KNOTS columns are ramps; the energies of the others cost
     ``reluctance`` times themselves squared.
 
-    Ramps are 0 at the horizon, as what leaves a rough surface is: Cycles samples them by the
-    cosine, and another value over it would be a sample without bound.
+    Ramps are 0 at the horizon, as light from a rough surface is. Cycles samples them by the cosine,
+    so any other value over the cosine would have no bound.
     """
     root = np.sqrt(EXITS.weight / scale)
     rows = []

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where tables have their nodes, in alpha and in the view's cosine.
 
-What several bounces do depends on the cosine through cosine / alpha where both are small, and on
-the view's angle where that is small. Nodes are therefore even in sqrt(alpha) and in x = sqrt(alpha
-(1 - cosine) / (alpha + cosine)), both 0 to 1; table.h has the same coordinates.
+Further bounces depend on cosine / alpha if both are small, and on the view's angle if that is
+small. So nodes are even in sqrt(alpha) and in x = sqrt(alpha (1 - cosine) / (alpha + cosine)), both
+from 0 to 1. table.h has the same coordinates.
 """
 
 import numpy as np
 
-SMALLEST_ALPHA = 1e-6  # stands for 0, where the limit in cosine / alpha is meant
-SMALLEST_RATIO = 1e-4  # of cosine and alpha: stands for the view along the horizon
+SMALLEST_ALPHA = 1e-6  # stands for 0 and means the limit in cosine / alpha
+SMALLEST_RATIO = 1e-4  # cosine over alpha that stands for a view along the horizon
 
 
 def alphas(count: int) -> np.ndarray:

@@ -116,7 +116,7 @@ def width(layout: Sequence[tuple[str, str, int]]) -> int:
 
 
 def provenance(seed: int, walks: int, errors: np.ndarray) -> list[str]:
-    """What a header says about its fits, relative ``errors`` ``(...)``."""
+    """The lines that describe a header's fits, with relative ``errors`` ``(...)``."""
     return [
         f"Seed {seed}, {walks} walks a node. Error of the shapes, as image L2 over the hemisphere",
         f"relative to all bounces: median {np.median(errors):.1%}, in nine of ten nodes at most "

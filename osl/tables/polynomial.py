@@ -11,8 +11,8 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 DIGITS = 4  # of a coefficient
-RIDGE = 1e-4  # what a coefficient of 1 counts, as a root of squared error
-ROUNDS = 6  # of least squares, which press the largest errors more and more
+RIDGE = 1e-4  # the cost of a coefficient of 1, as a root of squared error
+ROUNDS = 6  # of least squares; each weighs the largest errors more
 
 
 @dataclass(frozen=True)
@@ -107,9 +107,9 @@ def function(
 ) -> str:
     """An OSL function of all ``polynomials``, by the ``coefficients`` of GGX, then Beckmann.
 
-    No loop and no array: where the surface is the same everywhere, all that depends on it alone is
-    folded when a render starts. Three terms are one operation, since OSL reads each of them for
-    every metal, also for those that do not need them. Raises ValueError where a coefficient is not
+    It has no loop and no array. So OSL folds all that depends on the surface alone, as a render
+    starts with a surface that is the same everywhere. Three terms make one operation, because OSL
+    reads each operation for every metal, needed or not. Raises ValueError if a coefficient is not
     finite.
     """
     if not all(np.isfinite(one).all() for both in coefficients for one in both):
