@@ -65,7 +65,6 @@ def _rows(lit):
     return list(range(middle - 2, middle + 3))
 
 
-@pytest.mark.nightly
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_reference_agrees_with_a_new_rendering_of_some_rows(case):
     stored, _ = exr.read(references.FOLDER / f"{case.name}.exr")

@@ -19,8 +19,6 @@ from osl.oracle.surface import BECKMANN, GGX
 from osl.oracle.vectors import direction, dot
 from osl.oracle.visible import sample
 
-pytestmark = pytest.mark.nightly
-
 WIDTHS = [(0.5, 0.5), (1.0, 0.3), (0.25, 0.25)]
 # v above the horizon, next to it, and below it
 ANGLES = [0.3, 1.2, 1.56, 2.0]
