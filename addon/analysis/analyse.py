@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Analyses all our materials of a scene, and applies what was proposed."""
+"""Analyses all our materials of a scene, and applies the proposals."""
 
 import math
 import time
@@ -16,18 +16,18 @@ from ..scene.share import Shares, share_pieces, shown_materials
 from ..scene.sources import Sources
 from .surfaces import Found, apply_choice, found_nodes, read_choice, read_surface, why_fixed
 
-# Of the time, what may go by until the last image is begun; the rest is for the rays.
+# The part of the time in which reading an image may begin. The rest is for the rays.
 _PART_OF_IMAGES = 0.5
 
 
 @dataclass(frozen=True)
 class Row:
-    """What was found and is proposed for one node.
+    """The finding and the proposal for one node.
 
     key  -- finds the node again
-    name -- the material's, and the node's where that has a name of its own
-    surface -- what the proposal is made for
-    notes -- what could not be told, in short sentences without full stops
+    name -- the material's name, and the node's if it has one of its own
+    surface -- the surface that the proposal is made for
+    notes -- what is unknown, in short sentences without full stops
     """
 
     key: tuple[str, str, str]
@@ -57,9 +57,9 @@ class Row:
 
 
 def _step(option: Option, share: float) -> dict[str, object]:
-    """Return what is predicted of a Quality, as JSON takes it.
+    """Return the prediction for a Quality, as JSON takes it.
 
-    `picture_error` is what its error alone makes of the picture's, `time` its cost.
+    `picture_error` is the picture's error from this surface alone, `time` the cost.
     """
     return asdict(option.choice) | {
         "error": round(option.error, 5),
@@ -73,10 +73,10 @@ def _step(option: Option, share: float) -> dict[str, object]:
 class Analysis:
     """The analysis of a scene: the rows by falling share.
 
-    has_camera -- False where the shares could not be found and all materials weigh the same
-    part       -- of the rays that found the shares, 0 to 1: less than 1 where time was over
-    empty      -- the part of the picture, 0 to 1, that shows nothing but the world
-    unread     -- names in full of images for which there was no time
+    has_camera -- False if no shares could be found, so that all materials weigh the same
+    part       -- part of the rays that found the shares, 0 to 1; below 1 if time ran out
+    empty      -- part of the picture that shows only the world, 0 to 1
+    unread     -- full names of images for which there was no time
     """
 
     scene: str
@@ -99,7 +99,7 @@ class Analysis:
 
     @property
     def error_now(self) -> float:
-        """The predicted error of the picture, as image L2 where all is as bright."""
+        """The predicted error of the picture, as image L2, if all materials are equally bright."""
         return total_error(self.proposals)[0]
 
     @property
@@ -109,12 +109,12 @@ class Analysis:
 
     @property
     def within_tolerance(self) -> bool:
-        """Whether the picture is with all proposals."""
+        """Whether the picture is within the tolerance with all proposals."""
         return self.error_then <= self.tolerance
 
     @property
     def time_ratio(self) -> float:
-        """The predicted time of a sample with all proposals, over that now."""
+        """The predicted time of a sample with all proposals, over the time now."""
         return time_ratio(self.proposals, self.empty)
 
     def as_dict(self) -> dict[str, object]:
@@ -138,12 +138,12 @@ def analyse(
     progress: Callable[[float], None] = lambda part: None,
     seconds: float = math.inf,
 ) -> Analysis:
-    """Analyse the scene of `context` and return what is proposed; nothing is changed.
+    """Analyse the scene of `context` and return the proposals. Nothing is changed.
 
     tolerance -- how far off the picture may be, as image L2, above 0 to 1; else ValueError
-    progress  -- is told the part that is done, from 0 to 1
-    seconds   -- that reading images and finding the shares may take, beside what Blender needs to
-                 prepare the scene and to read the last image
+    progress  -- gets the part that is done, from 0 to 1
+    seconds   -- for reading images and finding the shares. Preparing the scene and reading the last
+                 image come on top
     """
     return done_at_once(analysis_pieces(context, tolerance, seconds), progress)
 
@@ -176,9 +176,9 @@ def analysis_pieces(
 
 
 def apply_analysis(context: bpy.types.Context, analysis: Analysis) -> tuple[list[str], list[str]]:
-    """Set what `analysis` proposes; return the names of what was set and of what was left.
+    """Set what `analysis` proposes; return the names of the nodes that were set and left.
 
-    What has changed since is left: what is gone, cannot be set, or would be another surface.
+    A node is left if it has changed since: it is gone, cannot be set, or is another surface.
     """
     found = {one.key: one for one in found_nodes(shown_materials(context))}
     sources = Sources(unread=analysis.unread)
@@ -194,7 +194,7 @@ def apply_analysis(context: bpy.types.Context, analysis: Analysis) -> tuple[list
 
 
 def _is_still(row: Row, found: Found, sources: Sources) -> bool:
-    """Return whether what is proposed was proposed for the node as it is."""
+    """Return whether the proposal was made for the node as it is now."""
     if why_fixed(found, sources):
         return False
     surface, _notes = read_surface(found, sources)
@@ -204,7 +204,7 @@ def _is_still(row: Row, found: Found, sources: Sources) -> bool:
 def _shown(
     found: Found, read: tuple[Surface, tuple[str, ...], str], shares: Shares, count: int
 ) -> tuple[Shown, tuple[str, ...]]:
-    """Return one of `count` nodes as it is shown, and notes on what could not be told.
+    """Return one of `count` nodes as it is shown, and notes on what is unknown.
 
     `read` is its surface, the notes on that, and why it stays.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds our nodes that the materials of a scene show, and reads them as surfaces."""
+"""Finds our nodes in the materials of a scene, and reads them as surfaces."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -43,13 +43,13 @@ class Found:
 
     @property
     def key(self) -> tuple[str, str, str]:
-        """What finds it again in the file: no two nodes have the same."""
+        """A key that finds it again in the file. No two nodes share one."""
         owner = self.tree if self.is_shared else self.materials[0]
         return ("group" if self.is_shared else "material", owner.name_full, self.node.name)
 
     @property
     def name(self) -> str:
-        """The material, and the node where that has a name of its own."""
+        """The material's name, and the node's if it has one of its own."""
         names = ", ".join(material.name for material in self.materials)
         return names if self.node.name == self.kind.name else f"{names}: {self.node.name}"
 
@@ -71,7 +71,7 @@ def found_nodes(materials: Iterable[bpy.types.Material]) -> list[Found]:
 
 
 def read_surface(found: Found, sources: Sources | None = None) -> tuple[Surface, tuple[str, ...]]:
-    """Return the surface with all that its inputs can take, and notes on what cannot be told."""
+    """Return the surface with the ranges of its inputs, and notes on what is unknown."""
     sources = sources or Sources()
     notes: list[str] = []
     kind = found.kind
@@ -97,13 +97,13 @@ def read_surface(found: Found, sources: Sources | None = None) -> tuple[Surface,
 
 
 def read_choice(found: Found) -> Choice:
-    """Return what is set on the node; of linked inputs it is the value that they would have."""
+    """Return the values on the node. For linked inputs that is the value without the link."""
     quality = _set_value(found, "Quality", len(QUALITIES) - 1)
     return Choice(QUALITIES[quality], max(_set_value(found, "MaxBounces", MOST_BOUNCES), 1))
 
 
 def why_fixed(found: Found, sources: Sources | None = None) -> str:
-    """Return why nothing can be proposed for the node or set on it, "" where it can."""
+    """Return why nothing can be proposed for the node or set on it; "" if it can."""
     sources = sources or Sources()
     owners = (found.tree, *(() if found.is_shared else found.materials))
     if any(owner.library for owner in owners):
@@ -134,7 +134,7 @@ def apply_choice(found: Found, choice: Choice) -> None:
 
 
 def _legal_range(found: Found, parameter: Parameter, sources: Sources, notes: list[str]) -> Range:
-    """Return the range of an input over all ways to the node, within what is legal."""
+    """Return the legal range of an input over all ways to the node."""
     socket = found.node.inputs.get(parameter.label)
     if socket is None:
         value = parameter.default
@@ -156,7 +156,7 @@ def _note(parameter: Parameter, taken: Interval, causes: list[str]) -> str:
 
 
 def _brightest(kind: Kind, read: Callable[[str], Range]) -> tuple[float, float, float]:
-    """Return the most that is left of light after a bounce."""
+    """Return the largest part of light that is left after a bounce."""
     if kind.identifier != "CONDUCTOR":
         return tuple(high for _, high in read("Color"))
     fresnel = _whole(read("Fresnel")[0])

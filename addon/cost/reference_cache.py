@@ -34,7 +34,7 @@ def cache_folder() -> Path:
 
 
 def clear_cache() -> int:
-    """Remove all references and return how many there were. Raises OSError where it cannot."""
+    """Remove all references and return how many there were. Raises OSError if it cannot."""
     folder = cache_folder()
     count = len(list(folder.glob("*.npz")))
     if folder.exists():
@@ -45,7 +45,7 @@ def clear_cache() -> int:
 def cache_file(
     scene: bpy.types.Scene, layer: str, options: Options, unchanged: bool = False
 ) -> str:
-    """Return where the reference of the scene is kept, "" where it must not be.
+    """Return where the reference of the scene is kept, "" if it must not be.
 
     That is a file that was never saved or may have changes that are not: nothing tells what they
     are. In the background Blender does not know; there the caller says that it is `unchanged`.
@@ -60,7 +60,7 @@ def cache_file(
 
 
 def load_reference(path: str) -> "list[numpy.ndarray] | None":
-    """Return the two pictures of a reference, None where there is none that can be read."""
+    """Return the two pictures of a reference, None if there is none that can be read."""
     import numpy as np
 
     if not path:

@@ -81,7 +81,7 @@ class Renderer:
     ) -> Rendered:
         """Render; `tell` gets the number of samples that are done, when Cycles tells it.
 
-        Raises RuntimeError where no picture comes out.
+        Raises RuntimeError if no picture comes out.
         """
         cycles = self._scene.cycles
         cycles.seed = seed
@@ -110,7 +110,7 @@ class Renderer:
 def placed_nodes() -> list[Placed]:
     """Return the nodes of our groups in all materials that the file uses.
 
-    Raises RuntimeError where there is none, or where one holds no compiled shader.
+    Raises RuntimeError if there is none, or where one holds no compiled shader.
     """
     found: dict[tuple[bpy.types.NodeTree, str], Placed] = {}
     for use in material_uses():

@@ -90,7 +90,7 @@ class CostRun:
     def result(self) -> dict[str, object]:
         """Return the report, as CostReport.as_dict() has it, once it does not run any more.
 
-        Raises CostError where it failed.
+        Raises CostError if it failed.
         """
         reason = self._child.failure()
         if reason:
@@ -143,7 +143,7 @@ def _need_measurable(scene: bpy.types.Scene) -> None:
 
 
 def output_folder(output: str) -> Path:
-    """Make the folder for the reports, and return it. Raises CostError where it cannot be written.
+    """Make the folder for the reports, and return it. Raises CostError if it cannot be written.
 
     "//" in a file that was never saved is a folder for temporary files.
     """
@@ -164,7 +164,7 @@ def output_folder(output: str) -> Path:
 def _notes(
     scene: bpy.types.Scene, layer: bpy.types.ViewLayer, options: Options, kept: str
 ) -> tuple[str, ...]:
-    """Return what is to know about a measurement. Raises CostError where it has no reference."""
+    """Return what is to know about a measurement. Raises CostError if it has no reference."""
     notes = [
         "Denoiser, adaptive sampling, path guiding, light threshold, compositor and sequencer "
         "were off; rendered on the processor, in a copy of the file."

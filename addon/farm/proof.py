@@ -2,7 +2,7 @@
 """Proves by rendering that a file needs no extension.
 
 Two Blenders of their own render the file small: one with the extension, which compiles the shaders
-anew, and one with the file alone. The pictures have to be the same.
+again, and one with the file alone. The pictures have to be the same.
 """
 
 import shutil
@@ -71,7 +71,7 @@ class ProofRun:
     def __init__(self, path: Path, time_limit: float = TIME_LIMIT) -> None:
         """Begin to prove the saved file `path`; each render may take `time_limit` seconds.
 
-        Raises ProofError where none can begin.
+        Raises ProofError if none can begin.
         """
         self._path, self._limit = path, time_limit
         self._begin = time.monotonic()
@@ -98,7 +98,7 @@ class ProofRun:
     def advance(self) -> bool:
         """Start the second render once the first has ended; return whether one is under way.
 
-        Raises ProofError where one fails or takes too long.
+        Raises ProofError if one fails or takes too long.
         """
         if self._child.running:
             if time.monotonic() - self._child_begin > self._limit:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compiles the shaders of all our groups in the file anew, as the measure for what they carry."""
+"""Compiles the shaders of all our groups in the file again, as the measure for what they carry."""
 
 import bpy
 

@@ -59,7 +59,7 @@ def shader_findings(group: bpy.types.ShaderNodeTree) -> list[Finding]:
 def _script_findings(
     group: bpy.types.ShaderNodeTree, subject: str, known_source: str
 ) -> list[Finding]:
-    """Check the script node; `known_source` is what its text should hold, "" where unknown."""
+    """Check the script node; `known_source` is what its text should hold, "" if unknown."""
     script = script_node(group)
     if script is None:
         message = "Its script node is gone; Cycles' own material shows."

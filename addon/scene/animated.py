@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which values the animation of a node tree gives to its properties."""
+"""Finds the values that animation gives to the properties of a node tree."""
 
 from itertools import pairwise
 
@@ -8,17 +8,17 @@ import bpy
 from ..core.intervals import ANYTHING, Interval, hull
 from ..material.animation import animation_curves
 
-# Others swing beyond their keys.
+# Other interpolations swing beyond their keys.
 _WITHIN_KEYS = {"CONSTANT", "LINEAR", "BEZIER"}
 
-# The ranges of values by the property's path in the tree and the number of the component.
+# Ranges of values, by the property's path in the tree and the number of the component.
 Animated = dict[tuple[str, int], Interval]
 
 
 def animated_values(tree: bpy.types.NodeTree) -> Animated:
     """Return the ranges of all values that curves and drivers give, at any frame.
 
-    Drivers, what the NLA mixes, and curves that leave the range of their keys can give anything.
+    A driver can give any value. So can an NLA strip, and a curve that leaves the range of its keys.
     """
     data = tree.animation_data
     found: Animated = {}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The check before rendering: what in a scene keeps materials of ours from looking as they should.
+"""The check before rendering: what keeps our materials in a scene from looking as they should.
 
-It reads and changes nothing, and is quick, for it runs before each render.
+It changes nothing, and is quick because it runs before each render.
 """
 
 import bpy
@@ -21,24 +21,24 @@ _NO_SCRIPT = "The script node in its node group is gone; Cycles' own material sh
 _REPLACE = "Add a material of the same kind, and use its node group instead."
 _HASH_ALONE = "Its shader's bytecode was taken out, but not the hash: Blender 5.2 stops on that."
 _NO_BYTECODE = "Its shader is not compiled; Cycles' own material shows."
-_MEND = "Add a material of the same kind in a Blender with Open Shading Language: that mends it."
-_MEND_LIBRARY = "Mend it in the library file: add a material of the same kind there, and save."
-_NO_TEXT = "The text of its shader was deleted; it renders by the compiled one."
-_OTHER = "It was made by another version of Microbounce and renders as it did there."
+_MEND = "Add a material of the same kind in a Blender with Open Shading Language, which mends it."
+_MEND_LIBRARY = "Open the library file, add a material of the same kind there, and save."
+_NO_TEXT = "The text of its shader was deleted; the compiled shader still renders."
+_OTHER = "Another version of Microbounce made it, and it renders as that version did."
 _UPGRADE = "Install that newer version to change it."
 _UPDATE = "Use Update Materials to give it today's shader."
 _UPDATE_LIBRARY = "Use Update Materials in the library file, and save that."
 
-# What a scene's check found last, by the scene's number in this session.
+# The findings of the last check, by the scene's number in this session.
 _last: dict[int, tuple[Finding, ...]] = {}
 
 
 def check_scene(
     scene: bpy.types.Scene, preferences: bpy.types.Preferences
 ) -> tuple[Finding, ...] | None:
-    """Return what is to know before `scene` is rendered, the worst first.
+    """Return what the user should know before `scene` is rendered, the worst first.
 
-    Returns None where no material of ours is rendered.
+    Returns None if no material of ours is rendered.
     """
     users: dict[bpy.types.NodeTree, list[bpy.types.Material]] = {}
     ours: list[bpy.types.Material] = []
@@ -55,7 +55,7 @@ def check_scene(
     if not users:
         return None
     found = _scene_findings(scene, preferences)
-    if exact and not found:  # where the shaders do not run, Cycles' own material finds every light
+    if exact and not found:  # without the shaders, Cycles' own material finds every light
         found = _lights_findings(scene, exact)
     for group, materials in users.items():
         found += _group_findings(group, materials)
@@ -63,24 +63,24 @@ def check_scene(
 
 
 def remember(scene: bpy.types.Scene, findings: tuple[Finding, ...]) -> bool:
-    """Keep what was found for the panels; return whether it differs from the last time."""
+    """Keep the findings for the panels; return whether they differ from the last ones."""
     changed = _last.get(scene.session_uid) != findings
     _last[scene.session_uid] = findings
     return changed
 
 
 def last_render_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
-    """Return what the last check of `scene` found, None where there was none."""
+    """Return what the last check of `scene` found, None if there was none."""
     return _last.get(scene.session_uid)
 
 
 def forget(scene: bpy.types.Scene) -> None:
-    """Drop what was kept of `scene`."""
+    """Drop the findings of `scene`."""
     _last.pop(scene.session_uid, None)
 
 
 def forget_all() -> None:
-    """Drop what was kept of all scenes."""
+    """Drop the findings of all scenes."""
     _last.clear()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds node trees of quality Exact, and the lights of a view layer as Exact sees them."""
+"""Finds node trees set to Exact, and the lights that Exact has to hit."""
 
 import bpy
 
@@ -18,13 +18,13 @@ def uses_exact(tree: bpy.types.NodeTree) -> bool:
 
 
 def is_exact(node: bpy.types.ShaderNodeGroup) -> bool:
-    """Return whether a node of ours is set to Exact; a Quality that is linked is not followed."""
+    """Return whether a node of ours is set to Exact. Links to Quality are not followed."""
     quality = node.inputs.get(_QUALITY.label)
     return bool(quality and not quality.is_linked and quality.default_value == _EXACT)
 
 
 def enabled_lamps(view_layer: bpy.types.ViewLayer) -> list[Lamp]:
-    """Return the lights that the layer renders, each once, also those in collection instances."""
+    """Return the lights that the layer renders, each once, collection instances included."""
     found: dict[bpy.types.Object, Lamp] = {}
     for obj in rendered_objects(view_layer):
         if obj.type == "LIGHT" and obj.data.energy != 0.0 and not obj.data.cycles.is_portal:

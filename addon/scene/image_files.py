@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The images that materials read, and the files that these lie in."""
+"""The images that materials read, and their files."""
 
 import os
 from collections.abc import Iterable
@@ -26,7 +26,7 @@ def images_in(uses: Iterable[Use]) -> dict[bpy.types.Image, bpy.types.Material]:
 
 
 def missing_image(image: bpy.types.Image, material: bpy.types.Material) -> Finding | None:
-    """Return that the file of an image of `material` is missing, None where it is not."""
+    """Return the finding that an image file of `material` is missing, None if it is there."""
     if image.is_dirty or not is_outside(image) or os.path.exists(first_file(image)):
         return None
     message = f"Its file {image.filepath} is missing."
@@ -35,12 +35,12 @@ def missing_image(image: bpy.types.Image, material: bpy.types.Material) -> Findi
 
 
 def image_subject(image: bpy.types.Image, material: bpy.types.Material) -> str:
-    """Return what findings about an image of `material` call it."""
+    """Return the name that findings use for an image of `material`."""
     return f"Image '{image.name}' of material '{material.name}'"
 
 
 def is_outside(data: bpy.types.ID) -> bool:
-    """Return whether the content of an image, a sound or the like is a file, and not packed."""
+    """Return whether an image, a sound or the like lies in a file and is not packed."""
     if getattr(data, "packed_file", None) or not data.filepath or data.filepath == "<builtin>":
         return False
     return getattr(data, "source", "FILE") in _FILE_SOURCES and not getattr(
@@ -49,7 +49,7 @@ def is_outside(data: bpy.types.ID) -> bool:
 
 
 def first_file(data: bpy.types.ID) -> str:
-    """Return the path of its file, of the first tile where there are several."""
+    """Return the path of its file, or of its first tile."""
     path = bpy.path.abspath(data.filepath, library=data.library)
     if getattr(data, "source", "") == "TILED":
         return path.replace("<UDIM>", str(data.tiles[0].number))

@@ -15,13 +15,14 @@ ImageRange = tuple[Interval, ...]
 
 
 class UnreadableImageError(Exception):
-    """The ranges of an image cannot be told; the message is a clause that names it and says why."""
+    """An image has no known ranges. The message is a clause that names it and says why."""
 
 
 def image_range(image: bpy.types.Image) -> ImageRange:
-    """Return the ranges of red, green, blue and alpha. An image that was not in memory is not kept.
+    """Return the ranges of red, green, blue and alpha. It keeps no image in memory that was not
+    there.
 
-    Raises UnreadableImageError where it is missing, too large, a sequence, a movie or tiled, or in
+    Raises UnreadableImageError if it is missing, too large, a sequence, a movie or tiled, or in
     a colour space that is neither sRGB nor linear.
     """
     if image.source not in ("FILE", "GENERATED"):
@@ -52,10 +53,10 @@ def _read(image: bpy.types.Image) -> ImageRange:
     pixels = np.empty(width * height * channels, dtype=np.float32)
     image.pixels.foreach_get(pixels)
     pixels = pixels.reshape(-1, channels)
-    # These pass over what is not a number.
+    # These ignore NaN.
     ends = np.stack([np.fmin.reduce(pixels), np.fmax.reduce(pixels)]).astype(float)
     colours = ends[:, :1].repeat(3, axis=1) if channels == 1 else ends[:, :3]
-    # The pixels of byte images are as in the file, those of float images linear.
+    # Byte images have the pixels of the file, float images linear ones.
     if space == "sRGB" and encoded:
         curve = ((np.maximum(colours, 0.0) + 0.055) / 1.055) ** 2.4
         colours = np.where(colours <= 0.04045, colours / 12.92, curve)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What becomes of a ray of sight at a material: it ends, goes on, or is mirrored.
+"""What happens to a ray from the camera at a material: it ends, passes, or is mirrored.
 
-Any material counts, ours and Blender's own; in doubt the ray goes on, so that shares of the
-picture are found too large rather than too small.
+Every material counts, ours and Blender's own. In doubt the ray passes, so shares of the picture
+come out too large rather than too small.
 """
 
 from enum import Enum
@@ -13,7 +13,7 @@ from ..material.graph import Path, node_kind, reached_nodes, surface_tree
 from .ranges import input_range
 from .sources import Sources
 
-# Below this a reflection shows what stands before it.
+# Below this roughness a reflection is a sharp picture.
 _MIRROR_ROUGHNESS = 0.25
 
 _CLEAR = {"ShaderNodeBsdfGlass", "ShaderNodeBsdfRefraction", "ShaderNodeBsdfTransparent"}
@@ -29,14 +29,14 @@ class Passage(Enum):
 
 
 def passage(material: bpy.types.Material, sources: Sources) -> Passage:
-    """Return what a ray of sight does where it meets this material."""
+    """Return what a ray from the camera does at this material."""
     tree = surface_tree(material)
     output = tree.get_output_node("CYCLES") if tree is not None else None
     linked = [name for name in ("Surface", "Volume") if output and output.inputs[name].is_linked]
     if linked == ["Volume"]:
         return Passage.THROUGH
     found = {_of_node(node, path, sources) for path, node in reached_nodes(tree) if not node.mute}
-    # What is both shows more of what is behind it.
+    # If it does both, the light from behind counts more.
     ways = (Passage.THROUGH, Passage.MIRRORED)
     return next((way for way in ways if way in found), Passage.ENDS)
 

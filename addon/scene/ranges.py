@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which values a node's input can take, at any frame: links are followed through values, textures
-and maths.
+"""Finds the values that a node's input can take at any frame, through links to values, textures and
+maths.
 
-A range is a tuple of intervals, one for a number and three for a colour or vector. What is not
-understood can be anything: the caller limits it to what is legal.
+A range is a tuple of intervals, one for a number and three for a colour or vector. A node that is
+not understood can give any value; the caller limits it to the legal ones.
 """
 
 from dataclasses import dataclass
@@ -19,14 +19,14 @@ Range = tuple[Interval, ...]
 
 _UNKNOWN: Range = (ANYTHING,)
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
-_DEEPEST = 64  # links: more are a ring of nodes
+_DEEPEST = 64  # links; longer chains are rings of nodes
 _RAMP_SAMPLES = 64
 
 
 def input_range(
     socket: bpy.types.NodeSocket, path: Path, sources: Sources, depth: int = 0
 ) -> Range:
-    """Return the range of an input socket; `path` tells by which groups its tree is reached."""
+    """Return the range of an input socket; `path` has the groups that lead to its tree."""
     source = linked_output(socket)
     if source is None:
         return _set_value(socket, sources)
@@ -79,7 +79,7 @@ class _Read:
         return input_range(socket, self.path, self.sources, self.depth)
 
 
-# What follows reads one kind of node each: (node, its output, what reads an input of it).
+# Each function below reads one kind of node: (node, its output, reader of an input).
 
 
 def _value(node: bpy.types.Node, socket: bpy.types.NodeSocket, read: _Read) -> Range:
@@ -132,7 +132,7 @@ def _ramp(node: bpy.types.Node, socket: bpy.types.NodeSocket, read: _Read) -> Ra
     ramp = node.color_ramp
     places = [low + (high - low) * i / _RAMP_SAMPLES for i in range(_RAMP_SAMPLES + 1)]
     places += [e.position for e in ramp.elements if low <= e.position <= high]
-    # A constant ramp jumps: what is just before an element is seen as well.
+    # A constant ramp jumps, so the value just before an element counts too.
     places += [e.position - 1e-5 for e in ramp.elements if low < e.position <= high]
     colours = [ramp.evaluate(place) for place in places]
     found = tuple((min(c[i] for c in colours), max(c[i] for c in colours)) for i in range(4))

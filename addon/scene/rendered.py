@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a scene renders: its objects, those in collection instances too, and their materials."""
+"""The objects that a scene renders, collection instances included, and their materials."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,7 @@ _SOCKET = "NodeSocketMaterial"
 
 
 def rendered_objects(view_layer: bpy.types.ViewLayer) -> Iterator[bpy.types.Object]:
-    """Yield the objects that the layer renders; one with several users may come again."""
+    """Yield the objects that the layer renders. One with several users may come twice."""
     if view_layer.layer_collection is None:  # Blender 5.2, in a scene that was never shown
         yield from _instanced(view_layer.id_data.collection)
     else:
@@ -21,7 +21,7 @@ def rendered_objects(view_layer: bpy.types.ViewLayer) -> Iterator[bpy.types.Obje
 def rendered_materials(scene: bpy.types.Scene) -> list[bpy.types.Material]:
     """Return the materials on the objects that the scene's view layers render, each once.
 
-    Those that geometry nodes set are among them where a modifier, or a group that it uses, names
+    Materials that geometry nodes set are among them if a modifier, or a group that it uses, names
     them.
     """
     materials: dict[bpy.types.Material | None, None] = {}
@@ -56,7 +56,7 @@ def _inputs(modifier: bpy.types.NodesModifier) -> Iterator[bpy.types.Material | 
 def _in_layer(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:
     if layer.collection.hide_render:
         return
-    if not layer.exclude:  # what is below an excluded collection may still be included
+    if not layer.exclude:  # a collection inside an excluded one may still be included
         for obj in layer.collection.objects:
             yield from _with_instances(obj)
     for child in layer.children:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds how much of the camera's picture each material fills, by a grid of rays.
 
-Rays end at the first surface that is neither clear nor a mirror: what is seen through glass or in
-a mirror counts as well, beside the glass or mirror itself.
+A ray ends at the first surface that is neither clear nor a mirror. So surfaces behind glass or in a
+mirror count, and so does the glass or mirror itself.
 """
 
 import math
@@ -20,14 +20,14 @@ from .rendered import rendered_materials, rendered_objects
 from .sources import Sources
 
 WIDTH = 64  # rays across the longer side of the picture
-# A surface that no ray meets may still be seen in a rough reflection, or be smaller than a pixel
-# of the rays.
+# A surface that no ray meets may still show in a rough reflection, or be smaller than a ray's
+# pixel.
 SMALLEST_SHARE = 0.005
 
 _MOST_SURFACES = 8  # along a ray
 _STEP = 1e-4  # beyond a surface, relative to its distance
 _FAR = 1e30
-# What rays can meet: no hair, points or volumes.
+# Types of objects that rays can meet. Hair, points and volumes are not among them.
 _SOLID = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
@@ -35,11 +35,11 @@ _SOLID = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 class Shares:
     """The parts of the picture, 0 to 1, by the materials' names in full.
 
-    has_camera -- False where no share could be found, as without a camera or with a panorama's
-    unmet      -- names of materials on what rays cannot meet: hair, points, volumes, and what the
-                  viewport hides
-    part       -- of the rays that were sent before the time was over, 0 to 1
-    empty      -- the part of the picture, 0 to 1, that shows nothing but the world
+    has_camera -- False if no share could be found: there is no camera, or it is a panorama
+    unmet      -- names of materials that rays cannot meet: on hair, points, volumes, and objects
+                  that the viewport hides
+    part       -- part of the rays that were sent before time ran out, 0 to 1
+    empty      -- part of the picture that shows only the world, 0 to 1
     """
 
     by_name: dict[str, float]
@@ -51,8 +51,8 @@ class Shares:
     def of(self, materials: list[bpy.types.Material], count: int) -> float:
         """Return the share of these materials together, of `count` surfaces that are analysed.
 
-        It is at least SMALLEST_SHARE, and for `unmet` materials an equal part. Where no share could
-        be found all surfaces have an equal part.
+        It is at least SMALLEST_SHARE, and an equal part for `unmet` materials. If no share could be
+        found, all surfaces have an equal part.
         """
         equal = 1.0 / max(count, 1)
         if not self.has_camera:
@@ -62,7 +62,7 @@ class Shares:
         return min(max(found, least), 1.0)
 
     def are_unmet(self, materials: list[bpy.types.Material]) -> bool:
-        """Return whether some of these materials are on what rays cannot meet."""
+        """Return whether rays cannot meet some of these materials."""
         return any(material.name_full in self.unmet for material in materials)
 
 
@@ -73,8 +73,8 @@ def picture_shares(
 ) -> Shares:
     """Return the materials' shares of the picture of the scene's camera at the current frame.
 
-    progress -- is told the part that is done, from 0 to 1
-    seconds  -- when they are over, the rays that were sent until then count
+    progress -- gets the part that is done, from 0 to 1
+    seconds  -- after these, only the rays sent until then count
     """
     return done_at_once(share_pieces(context, seconds, Sources(seconds)), progress)
 
@@ -103,10 +103,10 @@ def share_pieces(context: bpy.types.Context, seconds: float, sources: Sources) -
 
 
 def shown_materials(context: bpy.types.Context) -> list[bpy.types.Material]:
-    """Return the materials of all that the scene renders, also by instances and geometry nodes."""
+    """Return all materials that the scene renders, instances and geometry nodes included."""
     found = dict.fromkeys(rendered_materials(context.scene))
     seen = set()
-    # An instance is valid within its turn alone.
+    # An instance is valid only within its turn.
     for instance in context.evaluated_depsgraph_get().object_instances:
         thing = instance.object
         original = thing.original
@@ -124,7 +124,7 @@ def _materials(thing: bpy.types.Object) -> list[bpy.types.Material | None]:
 
 
 def _unmet(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> frozenset[str]:
-    """Return the names of the materials on what is rendered and rays cannot meet."""
+    """Return the names of rendered materials that rays cannot meet."""
     met = {thing.original for thing in depsgraph.objects if thing.type in _SOLID}
     return frozenset(
         slot.material.name_full
@@ -147,7 +147,7 @@ def _hidden_objects(scene: bpy.types.Scene) -> set[bpy.types.Object]:
 
 
 class _Sight:
-    """Follows rays through the scene; what materials and curves are is found once."""
+    """Follows rays through the scene; it looks at each material and curve once."""
 
     def __init__(
         self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, sources: Sources
@@ -160,7 +160,8 @@ class _Sight:
     def along(
         self, origin: Vector, direction: Vector, length: float
     ) -> Iterator[bpy.types.Material]:
-        """Yield the materials along a ray; it passes through what is not rendered or not seen."""
+        """Yield the materials along a ray. It passes through objects that are not rendered or
+        seen."""
         for _ in range(_MOST_SURFACES):
             hit, place, normal, face, thing, _matrix = self.scene.ray_cast(
                 self.depsgraph, origin, direction, distance=max(length, 0.0)
@@ -195,7 +196,7 @@ class _Sight:
         return self.passages[name]
 
     def _material(self, thing: bpy.types.Object, face: int) -> bpy.types.Material | None:
-        """Return the material of a face, None where it has none."""
+        """Return the material of a face, None if it has none."""
         evaluated = thing.evaluated_get(self.depsgraph)
         materials = _materials(evaluated)
         index = self._index(evaluated, face) if len(materials) > 1 else 0
@@ -216,7 +217,7 @@ class _Sight:
 
 
 def _spread(count: int) -> Iterator[int]:
-    """Yield 0 to count - 1 in an order whose beginnings are spread over all of it."""
+    """Yield 0 to count - 1 in an order whose first numbers are spread over the whole range."""
     step = max(round(count * 0.618), 1)
     while math.gcd(step, count) != 1:
         step += 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What comes into node trees from outside: animation and images, each read once in an analysis."""
+"""Reads what enters node trees from outside, animation and images, each once in an analysis."""
 
 import math
 import time
@@ -17,14 +17,14 @@ _SOCKETS = (".inputs[", ".outputs[")
 
 
 class Sources:
-    """Reads animation and images, and tells why values vary or are unknown.
+    """Reads animation and images, and says why values vary or are unknown.
 
-    causes -- since it was cleared last: ANIMATED, and clauses about images
-    unread -- names in full of images that are left out, as there is no time for them
+    causes -- ANIMATED and clauses about images, since it was last cleared
+    unread -- full names of images that were left out for lack of time
     """
 
     def __init__(self, seconds: float = math.inf, unread: Iterable[str] = ()) -> None:
-        """Begin to read no image once `seconds` are over, and none of `unread`."""
+        """Start. No image is read after `seconds`, and none of `unread`."""
         self.causes: list[str] = []
         self.unread = set(unread)
         self._end = time.monotonic() + seconds
@@ -32,7 +32,7 @@ class Sources:
         self._trees: dict[bpy.types.NodeTree, Animated] = {}
 
     def image(self, image: bpy.types.Image | None) -> ImageRange | None:
-        """Return the ranges of an image's channels, None where they cannot be told."""
+        """Return the ranges of an image's channels, None if they are unknown."""
         if image is None:
             self.causes.append("an image texture has no image")
             return None
@@ -48,7 +48,7 @@ class Sources:
     def over_time(
         self, socket: bpy.types.NodeSocket, values: tuple[Interval, ...]
     ) -> tuple[Interval, ...]:
-        """Return `values`, what is set on a socket, with all that its animation makes of them."""
+        """Return `values` of a socket, widened by all values that its animation gives."""
         curves = self._animated(socket.id_data)
         if not curves:
             return values

@@ -8,8 +8,8 @@ from ..material.script import osl_compiler_available
 
 
 def scene_status(scene: bpy.types.Scene, preferences: bpy.types.Preferences) -> Status:
-    """Return whether the shaders run in `scene`, else why not and what to do."""
-    cycles = getattr(scene, "cycles", None)  # absent where the Cycles add-on is disabled
+    """Return whether the shaders run in `scene`, or why not and what to do."""
+    cycles = getattr(scene, "cycles", None)  # absent if the Cycles add-on is disabled
     return osl_state(
         built_with_osl=osl_compiler_available(),
         engine=scene.render.engine,
@@ -19,11 +19,11 @@ def scene_status(scene: bpy.types.Scene, preferences: bpy.types.Preferences) -> 
 
 
 def _render_device(scene: bpy.types.Scene, preferences: bpy.types.Preferences) -> str:
-    """Return "CPU", or the GPU type where the scene asks for GPUs and the preferences have one."""
+    """Return "CPU", or the GPU type if the scene asks for GPUs and the preferences have one."""
     cycles = getattr(scene, "cycles", None)
     addon = preferences.addons.get("cycles")
     if cycles is None or addon is None or cycles.device == "CPU":
         return "CPU"
-    # Like Cycles, which takes the CPU where no GPU is chosen.
+    # Cycles takes the CPU too if no GPU is chosen.
     chosen = addon.preferences
     return chosen.compute_device_type if chosen.has_active_device() else "CPU"

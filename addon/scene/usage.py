@@ -11,7 +11,7 @@ from ..material.graph import group_nodes, is_our_group, surface_tree, trees_with
 
 @dataclass(frozen=True)
 class Use:
-    """A material, the node trees that it reaches, its own first, and those of them that are ours.
+    """A material, the node trees that it reaches (its own first), and our groups among them.
 
     `trees` go into node groups, but not into ours.
     """

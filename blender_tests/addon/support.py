@@ -139,7 +139,7 @@ def native_material(kind: str, **values: object) -> bpy.types.Material:
 
 
 def sphere() -> bpy.types.Object:
-    """Return the sphere of `small_scene`, looked up anew."""
+    """Return the sphere of `small_scene`, looked up again."""
     return bpy.data.objects["Sphere"]
 
 

@@ -128,7 +128,7 @@ def build(things: Sequence[Thing]) -> None:
     common.set_world(scene, (1.0, 1.0, 1.0))
     scene.cycles.max_bounces = 8
     scene.render.use_motion_blur = True
-    scene.render.use_persistent_data = True  # shaders are not compiled anew for another seed
+    scene.render.use_persistent_data = True  # shaders are not compiled again for another seed
     for index, thing in enumerate(things):
         row, column = divmod(index, COLUMNS)
         _add(thing, (column + 0.5, rows - row - 0.5, 0.0), index)

@@ -129,7 +129,7 @@ def measure(
 @pytest.mark.parametrize("kind", WHITE)
 def test_furnace(kind: str, quality: str, report) -> None:
     """Each case is 1 within the limit, with a standard error of at most a third of it. Cases that
-    three standard errors may take beyond the limit are rendered anew with more samples."""
+    three standard errors may take beyond the limit are rendered again with more samples."""
     samples, limit = PROMISES[quality]
     cases = cases_of(kind)
     means, noise = measure(kind, quality, cases, samples)

@@ -8,7 +8,7 @@ The oracle gets the arguments that the shader gets. Where one rounding of an arg
 value by more, near the critical angle say, the oracle's values for both roundings count as right.
 
 Hypothesis draws the cases of a function; they are rendered as one picture. If some fail, it draws
-them anew, finds the smallest case that fails and prints it: it can be pasted into regressions.py.
+them again, finds the smallest case that fails and prints it: it can be pasted into regressions.py.
 """
 
 import numpy as np

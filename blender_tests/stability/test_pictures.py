@@ -28,7 +28,7 @@ DARKEST = 0.02
 
 
 def faults(things: list[Thing]) -> list[str]:
-    """What is wrong with the picture of each thing, in words; empty where nothing is."""
+    """What is wrong with the picture of each thing, in words; empty if nothing is."""
     build(things)
     first, again, other = (pictures.picture(SAMPLES, seed) for seed in (1, 1, 2))
     said = []

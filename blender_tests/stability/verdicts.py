@@ -79,7 +79,7 @@ def compared(function: Function, columns: Mapping[str, np.ndarray]) -> np.ndarra
 
 
 def errors(function: Function, columns: Mapping[str, np.ndarray], found: np.ndarray) -> np.ndarray:
-    """Largest relative error of each case, (n,); 0 where the oracle is not asked for."""
+    """Largest relative error of each case, (n,); 0 if the oracle is not asked for."""
     asked = compared(function, columns)
     if not np.any(asked):
         return np.zeros(len(asked))
@@ -92,7 +92,7 @@ def errors(function: Function, columns: Mapping[str, np.ndarray], found: np.ndar
 
 
 def faults(function: Function, cases: Sequence[Case]) -> list[str]:
-    """What is wrong with each case in words; empty where nothing is."""
+    """What is wrong with each case in words; empty if nothing is."""
     columns = columns_of(cases)
     found = values(function, columns)
     error = errors(function, columns, found)

@@ -100,7 +100,7 @@ def _correlated(
     leave = area_v * np.maximum(o[..., 2], 0.0)
     stay = area_back * np.abs(v[..., 2])
     both = leave + stay
-    # Both vanish only where no micronormal is visible from v; such paths carry no weight.
+    # Both vanish only if no micronormal is visible from v; such paths carry no weight.
     safe = np.where(both > 0.0, both, 1.0)
     up = o[..., 2] > 0.0
     return ExitOdds(np.where(up, leave / safe, 0.0), np.where(up, stay / safe, 1.0))

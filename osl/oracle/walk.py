@@ -131,7 +131,7 @@ def turn_and_leave(
     p_exit = exit_odds(v, area_v, o, sigma(-o, surface), crossed, log_u, surface.model).p_exit
     if surface.material.smooth:
         turn = surface.material.turn(v, o, None, below, crossed, partial(D, surface=surface))
-        # sigma(v) = 0 only where D underflows as well
+        # sigma(v) = 0 only if D underflows as well
         density = turn.density / np.where(area_v > 0.0, area_v, 1.0)
         return turn.weight * (density * p_exit)[..., None]
     return surface.material.at_facet(o, m, crossed) * p_exit[..., None]

@@ -284,7 +284,7 @@ def shapes(run: Run) -> tuple[np.ndarray, np.ndarray]:
 
 def function(name: str, comment: str, table: np.ndarray, sides: int = 1) -> str:
     """A function that interpolates in ``table`` ``(sides * 2, indices, alphas, cosines, values)``,
-    GGX first. Raises ValueError where a value is not finite."""
+    GGX first. Raises ValueError if a value is not finite."""
     if not np.isfinite(table).all():
         raise ValueError(f"{name}: {np.count_nonzero(~np.isfinite(table))} values are not finite")
     _, count, alphas, cosines, values = table.shape

@@ -2,7 +2,7 @@
 """Runs tasks in several processes and keeps their results in a folder.
 
 A task is a frozen dataclass. Its result is kept under a digest of its parameters and of the source
-files it depends on. So it is computed anew exactly when one of them has changed.
+files it depends on. So it is computed again exactly when one of them has changed.
 """
 
 import ast
@@ -78,7 +78,7 @@ def results(
 ) -> dict[Task, Result]:
     """The results of ``tasks``, read from ``folder``, or computed and kept there if missing.
 
-    ``jobs``: the number of processes; 1 works in this one. ``force`` computes all anew. ``show``
+    ``jobs``: the number of processes; 1 works in this one. ``force`` computes all again. ``show``
     shows a progress bar.
     """
     tasks = list(dict.fromkeys(tasks))

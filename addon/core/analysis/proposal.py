@@ -32,7 +32,7 @@ _PART_OF_BOUNCES = 0.25
 class Shown:
     """A surface, what is set on it, and its share of the picture, 0 to 1.
 
-    fixed -- why it stays as it is, "" where it may change
+    fixed -- why it stays as it is, "" if it may change
     """
 
     surface: Surface

@@ -18,7 +18,7 @@ class Cost:
     wall, processor -- seconds per sample, the start of the render taken off; processor time is
                        that of all threads together
     start           -- seconds that a render takes before its samples
-    memory          -- most megabytes that were in use, None where that is not told
+    memory          -- most megabytes that were in use, None if that is not told
     """
 
     wall: tuple[float, ...]
@@ -115,7 +115,7 @@ class CostReport:
     def equal_time(self) -> float | None:
         """Seconds at which errors are compared: those of Fitted, else of the first that is timed.
 
-        None where none is.
+        None if none is.
         """
         timed = self.timed
         chosen = next((v for v in timed if v.key == "fitted"), timed[0] if timed else None)

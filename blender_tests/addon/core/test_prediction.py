@@ -47,7 +47,7 @@ def surface(kind: str, alpha: float, **values: object) -> Surface:
 def test_the_data_are_the_oracles(
     kind: str, material: object, alpha: float, ior: float, distribution: int
 ) -> None:
-    """Entries computed anew, by another seed, are those of the file within their noise."""
+    """Entries computed again, by another seed, are those of the file within their noise."""
     made = OracleSurface(alpha, alpha, NAMES[distribution], material)
     for of, measure in (("left_out", bounces.left_out), ("lost", bounces.energy_lost)):
         stored = step_errors.left_out(kind, distribution, 0, (alpha, alpha), (ior, ior), of)

@@ -159,19 +159,19 @@ def test_a_scene_that_does_not_run_the_shaders_says_why(osl_scene, case, monkeyp
 
 def no_bytecode(group):
     script().bytecode = script().bytecode_hash = ""
-    return "warning", "is not compiled", "that mends it"
+    return "warning", "is not compiled", "which mends it"
 
 
 def hash_alone(group):
     script().bytecode = ""
-    return "error", "but not the hash", "that mends it"
+    return "error", "but not the hash", "which mends it"
 
 
 def no_text(group):
     import bpy
 
     bpy.data.texts.remove(script().script)
-    return "note", "text of its shader was deleted", "that mends it"
+    return "note", "text of its shader was deleted", "which mends it"
 
 
 def no_script(group):
@@ -181,13 +181,13 @@ def no_script(group):
 
 def older(group):
     group["microbounce_stamp"] = "older"
-    return "note", "another version", "Update Materials"
+    return "note", "nother version", "Update Materials"
 
 
 def newer(group):
     group["microbounce_version"] = "99.0.0"
     older(group)
-    return "note", "another version", "Install that newer version"
+    return "note", "nother version", "Install that newer version"
 
 
 GROUPS = [no_bytecode, hash_alone, no_text, no_script, older, newer]

@@ -70,7 +70,7 @@ def test_a_linked_group_without_bytecode(registered, tmp_path):
     scene, _ = linked(tmp_path, no_bytecode)
     finding = the_finding(scene)
     assert finding.level == "warning"
-    assert "in the library file" in finding.remedy
+    assert "Open the library file" in finding.remedy
 
 
 def test_a_missing_library(registered, tmp_path):

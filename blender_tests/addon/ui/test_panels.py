@@ -60,7 +60,7 @@ class Record:
 
 
 def draw(bpy, panel, **members):
-    """Draw `panel` in a context of the current scene with `members`; None where it is not shown."""
+    """Draw `panel` in a context of the current scene with `members`; None if it is not shown."""
     from addon.ui import panels
 
     cls = getattr(panels, panel)

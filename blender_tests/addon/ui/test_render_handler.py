@@ -88,7 +88,7 @@ def test_operator_reports_and_the_panel_shows(osl_scene, capfd):
     check_render()
     said = capfd.readouterr().out
     assert "Warning: Scene 'Scene': Open Shading Language is off" in said
-    assert "Info: Material 'Ours': It was made by another version" in said
+    assert "Info: Material 'Ours': Another version" in said
     levels = [finding.level for finding in last_render_findings(osl_scene)]
     assert levels == ["warning", "note"]
     sphere().data.materials.clear()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results are kept, found again, and computed anew when what they depend on has changed."""
+"""Results are kept, found again, and computed again when what they depend on has changed."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
