@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Does a job in the other Blender: renders everything, evaluates it and writes the reports."""
+"""Does a job in the other Blender: renders all variants, evaluates them, writes the reports."""
 
 import datetime
 import json
@@ -21,9 +21,9 @@ from .page_pictures import PagePictures
 from .reference_cache import load_reference, store_reference
 from .renderer import Rendered, Renderer
 
-# Apart from those of the rounds, which count from 1.
+# Far from the seeds of the rounds, which count from 1.
 _REFERENCE_SEEDS = (1_000_001, 1_000_002)
-# The reports; the last one is written when the others are there.
+# The reports. The last one is written after all others.
 _FILES = {
     "page": "cost.html",
     "csv": "cost.csv",
@@ -65,7 +65,7 @@ def run(job_file: str) -> None:
             tell.finish(half)
         if job["cache"] and not store_reference(job["cache"], references):
             notes.append(f"The reference is not kept: {job['cache']} cannot be written.")
-    # After the reference: a render border that shows nothing is told before the long part.
+    # Before the long part, so that a render border that shows nothing is reported early.
     _check_light(references)
     renders = _render_rounds(renderer, variants, options.rounds, tell)
     tell.start("Writing the report")
@@ -106,7 +106,7 @@ def _render_rounds(
 ) -> dict[str, list[tuple[Rendered, Rendered]]]:
     """Return by key, for each round, a render of one sample and one of all samples.
 
-    The rounds go through all variants in turn, so that a load on the machine falls on all of them.
+    Each round goes through all variants, so a load on the machine falls on all of them.
     """
     tell.start("Warm-up")
     renderer.show(variants[0])
@@ -178,7 +178,7 @@ class _Teller:
     """Writes how far it is to a file, a line at a time."""
 
     def __init__(self, path: Path, total: int) -> None:
-        """Begin; `total` is the number of samples that there will be."""
+        """Start; `total` is the number of all samples."""
         self._path, self._total = path, total
         self._begin, self._done, self._text = time.monotonic(), 0, ""
 
@@ -188,7 +188,7 @@ class _Teller:
         self.during(0)
 
     def during(self, samples: int) -> None:
-        """Tell how many samples of it are done."""
+        """Tell how many of its samples are done."""
         done = self._done + samples
         spent = time.monotonic() - self._begin
         left = spent * (self._total - done) / done if done else None
@@ -216,7 +216,7 @@ def _hardware(scene: bpy.types.Scene) -> dict[str, str]:
 
 
 def _process_peak() -> float | None:
-    """Return the most megabytes of this process so far, None on Windows."""
+    """Return the peak memory of this process so far in megabytes, None on Windows."""
     try:
         import resource
     except ImportError:
@@ -227,7 +227,7 @@ def _process_peak() -> float | None:
 
 def _memory_source(renders: dict[str, list[tuple[Rendered, Rendered]]]) -> str:
     if all(full.memory for pairs in renders.values() for _, full in pairs):
-        return "the most that Cycles had in use, by its own count in whole megabytes"
+        return "Cycles' own count of its peak, in whole megabytes"
     if _process_peak() is None:
         return "not measured"
-    return "the most that the whole process had in use so far"
+    return "the peak of the whole process so far"

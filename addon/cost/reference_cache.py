@@ -16,9 +16,9 @@ import bpy
 from ..core import VERSION
 from ..core.cost.plan import Options, reference_variant
 
-# Raise it when a reference is rendered in another way: older ones are not used any more then.
+# Raise it if references are rendered in another way. Older ones are then ignored.
 _REVISION = 2
-# Older references are removed when there are more.
+# Above this number, older references are removed.
 _MOST = 8
 _FOLDER = "cost_references"
 # Of the extension as Blender knows it.
@@ -47,8 +47,9 @@ def cache_file(
 ) -> str:
     """Return where the reference of the scene is kept, "" if it must not be.
 
-    That is a file that was never saved or may have changes that are not: nothing tells what they
-    are. In the background Blender does not know; there the caller says that it is `unchanged`.
+    It must not be kept for a file that was never saved or may have unsaved changes, because these
+    are unknown. In the background Blender keeps no track of changes; there the caller tells that
+    the file is `unchanged`.
     """
     dirty = bpy.data.is_dirty or bpy.app.background
     if not bpy.data.filepath or (dirty and not unchanged):
@@ -60,7 +61,7 @@ def cache_file(
 
 
 def load_reference(path: str) -> "list[numpy.ndarray] | None":
-    """Return the two pictures of a reference, None if there is none that can be read."""
+    """Return the two pictures of a reference, None if none can be read."""
     import numpy as np
 
     if not path:
@@ -79,7 +80,7 @@ def load_reference(path: str) -> "list[numpy.ndarray] | None":
 
 
 def store_reference(path: str, pictures: "list[numpy.ndarray]") -> bool:
-    """Keep the two pictures of a reference; return whether that went well, "" is never kept."""
+    """Keep the two pictures of a reference and return whether that worked; it does not for ""."""
     import numpy as np
 
     if not path:
@@ -123,7 +124,7 @@ def _parts(scene: bpy.types.Scene, layer: str, options: Options) -> Iterator:
 def _files() -> Iterator:
     """Yield the states of all files that the scene is read from.
 
-    Beside a texture or a cache all files of its folder count: it may be one of a sequence.
+    All files in the folder of a texture or cache count, because it may be one of a sequence.
     """
     blends, folders = {bpy.data.filepath}, set()
     for path in bpy.utils.blend_paths(absolute=True):
@@ -162,7 +163,7 @@ def _tree(tree: bpy.types.NodeTree) -> Iterator:
 
 
 def _values(struct: bpy.types.bpy_struct) -> Iterator:
-    """Yield the plain values of a struct, and the names of what it points to."""
+    """Yield the plain values of a struct, and the names of the data it points to."""
     for prop in struct.bl_rna.properties:
         if prop.is_readonly or prop.type == "COLLECTION" or getattr(prop, "is_deprecated", False):
             continue

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders a scene with a given number of samples and seed, and tells what that took.
+"""Renders a scene with a given number of samples and seed, and measures time and memory.
 
-It changes the scene and its materials for good: it is for a copy of the user's file.
+It changes the scene and its materials for good, so it is for a copy of the user's file.
 """
 
 import re
@@ -29,10 +29,10 @@ _MEGABYTES = {"K": 1 / 1024, "M": 1.0, "G": 1024.0}
 
 @dataclass(frozen=True)
 class Rendered:
-    """A picture, linear radiance (height, width, 3), and what it took.
+    """A picture, linear radiance (height, width, 3), with its time and memory.
 
     wall, processor -- seconds of the whole render, by the clock and of all threads together
-    memory          -- most megabytes that Cycles had in use by its own count, 0 where it is silent
+    memory          -- Cycles' own count of its peak in megabytes, 0 if it gives none
     """
 
     picture: "numpy.ndarray"
@@ -55,7 +55,7 @@ class Renderer:
         self._placed = placed_nodes()
         self._kept: list[tuple] = []
         self.samples = options.samples or max(2, scene.cycles.samples)
-        # Before anything is stopped, every input gets the value that it has at this frame.
+        # Before animation is stopped, every input takes its value at this frame.
         scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
         self.held = hold_still(self._placed, overridden(options))
         _prepare(scene, layer, options)
@@ -79,14 +79,14 @@ class Renderer:
     def render(
         self, samples: int, seed: int, tell: Callable[[int], None] = lambda done: None
     ) -> Rendered:
-        """Render; `tell` gets the number of samples that are done, when Cycles tells it.
+        """Render. `tell` gets the number of samples that are done whenever Cycles reports it.
 
         Raises RuntimeError if no picture comes out.
         """
         cycles = self._scene.cycles
         cycles.seed = seed
-        # Cycles puts the first sample of every seed into the middle of the pixel, which is a bias
-        # of 1 / samples: it is left out.
+        # Cycles puts the first sample of every seed into the middle of the pixel. That is a bias of
+        # 1 / samples, so it is left out.
         cycles.samples, cycles.sample_subset_length = samples + 1, samples
         self._path.unlink(missing_ok=True)
         with _listening(tell) as told:
@@ -110,7 +110,7 @@ class Renderer:
 def placed_nodes() -> list[Placed]:
     """Return the nodes of our groups in all materials that the file uses.
 
-    Raises RuntimeError if there is none, or where one holds no compiled shader.
+    Raises RuntimeError if there is none, or if one holds no compiled shader.
     """
     found: dict[tuple[bpy.types.NodeTree, str], Placed] = {}
     for use in material_uses():
@@ -130,7 +130,7 @@ def placed_nodes() -> list[Placed]:
 def _prepare(scene: bpy.types.Scene, layer: str, options: Options) -> None:
     """Switch off what biases pixels, changes the number of samples, or draws over the picture.
 
-    Clamping stays as the user has it: without it a few bright pixels may hide all else.
+    Clamping stays as the user set it, because without it a few bright pixels may hide all else.
     """
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
@@ -145,7 +145,7 @@ def _prepare(scene: bpy.types.Scene, layer: str, options: Options) -> None:
     render.use_crop_to_border = True
     render.use_multiview = render.use_stamp = render.use_freestyle = False
     render.use_compositing = render.use_sequencer = False
-    # With it Cycles would not notice that the number of samples changed.
+    # Otherwise Cycles would not notice a change of samples.
     render.use_persistent_data = False
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_animated_seed = False
@@ -168,7 +168,7 @@ def _prepare_output(render: bpy.types.RenderSettings, path: Path) -> None:
 
 @contextmanager
 def _listening(tell: Callable[[int], None]) -> Iterator[list[float]]:
-    """Hand on the samples which Cycles tells of; yield a list that takes the megabytes."""
+    """Pass on the samples that Cycles reports; yield a list that collects the megabytes."""
     told: list[float] = []
 
     def listen(text: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Starts a measurement in a Blender of its own, follows it, and takes its report."""
+"""Starts a measurement in another Blender, follows it, and takes its report."""
 
 import json
 import os
@@ -37,8 +37,8 @@ class CostRun:
     ) -> None:
         """Check everything, save a copy of the file and start.
 
-        `output` is the folder for the reports, where "//" means beside the file. `unchanged` says
-        that the scene is as it is in the file, also where Blender does not know. Raises CostError.
+        `output` is the folder for the reports; "//" means beside the file. `unchanged` says that
+        the scene is as in the file, if Blender itself does not know. Raises CostError.
         """
         _need_measurable(scene)
         folder = output_folder(output)
@@ -84,11 +84,11 @@ class CostRun:
         try:
             lines = (self._folder / "progress").read_text("utf-8").splitlines()
             return Progress(**json.loads(lines[-1]))
-        except (OSError, IndexError, ValueError):  # not begun, or a line that is half written
+        except (OSError, IndexError, ValueError):  # not started, or a line is half written
             return Progress()
 
     def result(self) -> dict[str, object]:
-        """Return the report, as CostReport.as_dict() has it, once it does not run any more.
+        """Return the report, as CostReport.as_dict() has it, after it has ended.
 
         Raises CostError if it failed.
         """
@@ -164,7 +164,7 @@ def output_folder(output: str) -> Path:
 def _notes(
     scene: bpy.types.Scene, layer: bpy.types.ViewLayer, options: Options, kept: str
 ) -> tuple[str, ...]:
-    """Return what is to know about a measurement. Raises CostError if it has no reference."""
+    """Return the notes on a measurement. Raises CostError if it has no reference."""
     notes = [
         "Denoiser, adaptive sampling, path guiding, light threshold, compositor and sequencer "
         "were off; rendered on the processor, in a copy of the file."
@@ -172,7 +172,7 @@ def _notes(
     direct, indirect = scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_indirect
     if direct or indirect:
         notes.append(
-            f"All pictures, the reference too, are clamped as the scene is: direct {direct:g}, "
+            f"All pictures, the reference too, are clamped as in the scene: direct {direct:g}, "
             f"indirect {indirect:g} (0 is off)."
         )
     missed = exact_warning(enabled_lamps(layer))
@@ -183,7 +183,7 @@ def _notes(
     if not scene.cycles.shading_system:
         notes.append("Open Shading Language is off in the scene; in the copy it was on.")
     if not kept:
-        notes.append("The reference was not kept, since the file may have unsaved changes.")
+        notes.append("The reference was not kept, because the file may have unsaved changes.")
     return tuple(notes)
 
 

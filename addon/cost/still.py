@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stops what would move an input away from the value that a variant gives it."""
+"""Stops animation that would override the values of a variant."""
 
 from collections.abc import Collection, Iterable, Iterator
 
@@ -14,7 +14,7 @@ _VALUE = ".default_value"
 def hold_still(nodes: Iterable[Placed], identifiers: Collection[str]) -> list[str]:
     """Mute keyframes and drivers of these parameters of the nodes; return the labels they had.
 
-    Each keeps the value that it has now, until it is set. Other inputs go on being animated.
+    Each keeps its present value until it is set. Other inputs stay animated.
     """
     held: dict[str, None] = {}
     for placed in nodes:

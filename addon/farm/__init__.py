@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Will a file render on a farm, without the extension, as it does here? `check.py` answers."""
+"""Checks whether a file renders on a farm, without the extension, as it does here."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The check for a farm, of materials and scene: whether they will render without the extension."""
+"""The check for a farm: whether materials and scene will render without the extension."""
 
 from dataclasses import replace
 
@@ -21,8 +21,8 @@ from .shaders import shader_findings
 def farm_findings(scene: bpy.types.Scene) -> list[Finding]:
     """Return what may make our materials in this file render differently without the extension.
 
-    Nothing is changed. Where a material is used by nothing, its findings are notes. A file without
-    our materials has none but of its libraries, which may hold some.
+    Nothing is changed. Findings of an unused material are notes. A file without our materials has
+    only findings of its libraries, which may hold some.
     """
     uses = list(material_uses())
     used = [use for use in uses if use.used]
@@ -38,9 +38,9 @@ def farm_findings(scene: bpy.types.Scene) -> list[Finding]:
 
 
 def scene_findings(scene: bpy.types.Scene) -> list[Finding]:
-    """Return what keeps a scene from running our shaders, whatever machine renders it."""
+    """Return what keeps a scene from running our shaders on any machine."""
     subject = f"Scene '{scene.name}'"
-    cycles = getattr(scene, "cycles", None)  # absent where the Cycles add-on is disabled
+    cycles = getattr(scene, "cycles", None)  # absent if the Cycles add-on is disabled
     status = osl_state(
         built_with_osl=True,
         engine=scene.render.engine,
@@ -51,7 +51,7 @@ def scene_findings(scene: bpy.types.Scene) -> list[Finding]:
         return [Finding("error", subject, status.reason, status.remedy)]
     if cycles.device == "CPU":
         return []
-    message = "It asks for a GPU; where that is not used by OptiX, Cycles' own material shows."
+    message = "It asks for a GPU. Unless that runs OptiX, Cycles' own material shows."
     return [Finding("warning", subject, message, "Set the device to CPU, or use OptiX.")]
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Proves by rendering that a file needs no extension.
 
-Two Blenders of their own render the file small: one with the extension, which compiles the shaders
-again, and one with the file alone. The pictures have to be the same.
+Two other Blenders render the file small. One has the extension, which compiles the shaders again;
+one has the file alone. The pictures have to be the same.
 """
 
 import shutil
@@ -16,8 +16,8 @@ from ..child_blender import ChildBlender
 from ..core.finding import Finding
 from ..core.run import Progress, RunError, wait_for
 
-# Of the picture's light. The same shader gives the same bits, but where Blender 4.5 sums smooth
-# normals in an order that changes from run to run: a last bit of these moves some random walks.
+# A part of the picture's light. The same shader gives the same bits, unless Blender 4.5 sums smooth
+# normals in another order: their last bits move some random walks.
 TOLERANCE = 0.02
 TIME_LIMIT = 300.0  # seconds, of each render
 
@@ -28,11 +28,11 @@ class ProofError(RunError):
 
 @dataclass(frozen=True)
 class Proof:
-    """What the comparison gave.
+    """The result of the comparison.
 
     difference -- mean distance of the pixels, over the mean of the picture with the extension
     brightness -- that mean, over RGB
-    seconds    -- what both renders took together, with the start of their Blenders
+    seconds    -- of both renders together, with the start of their Blenders
     """
 
     difference: float
@@ -45,7 +45,7 @@ class Proof:
         return self.brightness > 0.0 and self.difference <= TOLERANCE
 
     def findings(self, path: Path) -> list[Finding]:
-        """Return what is wrong with the file `path`, nothing where the pictures are the same."""
+        """Return what is wrong with the file `path`; nothing if the pictures are the same."""
         subject = f"File '{path.name}'"
         if not self.brightness > 0.0:
             message = "Its picture is black or not a number, which proves nothing."
@@ -59,7 +59,7 @@ class Proof:
             f"Without the extension it renders differently: {self.difference:.1%} of the light, "
             f"where {TOLERANCE:.0%} is allowed."
         )
-        return [Finding("error", subject, message, "Mend the other findings, and save again.")]
+        return [Finding("error", subject, message, "Fix the other findings, and save again.")]
 
 
 class ProofRun:
@@ -69,7 +69,7 @@ class ProofRun:
     """
 
     def __init__(self, path: Path, time_limit: float = TIME_LIMIT) -> None:
-        """Begin to prove the saved file `path`; each render may take `time_limit` seconds.
+        """Start to prove the saved file `path`. Each render may take `time_limit` seconds.
 
         Raises ProofError if none can begin.
         """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compiles the shaders of all our groups in the file again, as the measure for what they carry."""
+"""Compiles the shaders of all our groups in the file again, to compare with what they carry."""
 
 import bpy
 
@@ -11,7 +11,7 @@ from ..material.script import compile_source, set_bytecode
 
 
 def compile_anew() -> None:
-    """Give every group of ours the bytecode of its own source, or of ours where that is gone.
+    """Give every group of ours the bytecode of its own source, or of today's if that is gone.
 
     Raises ValueError for a group of an unknown kind and what compile_source() raises.
     """

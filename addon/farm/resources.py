@@ -60,11 +60,11 @@ def node_file_findings(uses: Iterable[Use]) -> list[Finding]:
 def library_findings() -> list[Finding]:
     """Return which libraries the file needs that are not packed into it, the missing ones first.
 
-    All of them count: nothing tells whether what is linked from a missing one was ours.
+    All libraries count, because nobody knows whether the data of a missing one was ours.
     """
     errors, warnings = [], []
     for library in bpy.data.libraries:
-        # What was linked directly, and not by that, is what users know.
+        # Users know the data that was linked directly.
         linked = sorted(library.users_id, key=lambda data: data.is_library_indirect)
         if not linked:  # it will not be saved
             continue
@@ -86,7 +86,7 @@ def library_findings() -> list[Finding]:
 
 
 def other_file_findings(uses: Iterable[Use]) -> list[Finding]:
-    """Return which files the rest of the scene's data need, those of used materials left out."""
+    """Return the files that the rest of the scene's data needs, without those of used materials."""
     told = images_in(uses)
     paths = {
         first_file(data)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that a node group carries its shader: source and bytecode, and the one is of the other."""
+"""Checks that a node group carries its shader: the source, and the bytecode of that source."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -15,7 +15,7 @@ from ..material.group import script_node
 from ..material.script import OslUnavailableError, ShaderCompileError, compile_source
 from ..material.versions import is_newer, is_of_another_version
 
-# A file has few sources; a check of several files in a row meets the same ones again.
+# A file has few sources, and several files in a row share them.
 _compiled = lru_cache(maxsize=8)(compile_source)
 
 _UPDATE = "Use Update Materials to give it today's shader."

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A report as a page of HTML that holds everything itself: style, plot and pictures."""
+"""A report as one HTML page with its style, plot and pictures inside."""
 
 import base64
 import html
@@ -19,7 +19,7 @@ _WIDTHS = (640, 480, 400, 320, 260, 200, 140, 90, 40)
 
 @dataclass(frozen=True)
 class Pictures:
-    """What a page shows of a variant, as PNG.
+    """The pictures of a variant, as PNG.
 
     picture    -- one render
     difference -- the mean of all renders less the reference, in colours

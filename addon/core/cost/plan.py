@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which variants of a scene are rendered to measure what accuracy costs, and how often."""
+"""The variants of a scene that are rendered to measure what accuracy costs."""
 
 from dataclasses import asdict, dataclass, field
 
@@ -9,7 +9,7 @@ from ..parameters import SHARED
 STEPS = SHARED["Quality"].choices
 
 REFERENCES = ("WALK", "EXACT")
-# What the references override. Walk has less bias the narrower its lobes are.
+# The settings of the references. Walk has less bias if its lobes are narrower.
 _REFERENCE_SETTINGS = {
     "WALK": {"Quality": "Walk", "Walks": 16, "Kernel": 0.15, "MaxBounces": 64, "Tolerance": 0.0},
     "EXACT": {"Quality": "Exact", "MaxBounces": 64, "Tolerance": 0.0},
@@ -18,7 +18,7 @@ REFERENCE_TITLES = {
     "WALK": "Walk with 16 walks and a kernel of 0.15",
     "EXACT": "Exact",
 }
-# Where nothing else is asked, the reference has this many times the samples of a variant.
+# Unless asked otherwise, the reference has this many times the samples of a variant.
 REFERENCE_FACTOR = 16
 
 
@@ -48,7 +48,7 @@ class Variant:
 
 @dataclass(frozen=True)
 class Options:
-    """What is asked for. Raises PlanError for what makes no sense.
+    """The options of a measurement. Raises PlanError for a value that makes no sense.
 
     samples           -- of a picture, 2 or more; 0 means the scene's
     percentage        -- of the scene's width and height, 1 to 100; 0 means the scene's
@@ -57,9 +57,9 @@ class Options:
     walks, kernels    -- numbers of walks and radii of the lobe, in Walk
     baselines         -- whether Cycles' own closures are rendered, with OSL on and off
     rounds            -- how often each is rendered and timed, 2 or more, each with its own seed
-    reference         -- "WALK", or "EXACT" for scenes all of whose lights a path can hit
+    reference         -- "WALK", or "EXACT" if paths can hit all lights of the scene
     reference_samples -- of the reference, 4 or more; 0 means REFERENCE_FACTOR times a variant's
-    error             -- target that the times to an error are for, relative, above 0
+    error             -- target of the times to an error, relative, above 0
     region            -- x0, y0, x1, y1 in parts of the picture from its lower left corner;
                          None means the scene's render border, if it has one
     """
@@ -117,7 +117,7 @@ class Options:
 
 
 def planned_variants(options: Options) -> list[Variant]:
-    """Return what is rendered, each once, the ladder's steps first."""
+    """Return the variants to render, each once, the qualities first."""
     variants = [Variant(step.lower(), step, "step", {"Quality": step}) for step in options.steps]
     for family, identifier, values, title in (
         ("bounces", "MaxBounces", options.bounces, "Walk, {:d} bounces"),

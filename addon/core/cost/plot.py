@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plot of error over time, both logarithmic: as drawing steps, and from these as SVG."""
+"""Draws the plot of error over time, both logarithmic, as steps and then as SVG."""
 
 import html
 import math
@@ -10,7 +10,7 @@ from .results import CostReport, Measured
 WIDTH, HEIGHT = 860, 460
 _LEFT, _RIGHT, _TOP, _BOTTOM = 64, 190, 18, 46
 
-# Told apart also by people who are blind to some colours (Okabe and Ito, 2008), then paler ones.
+# Colour-blind people can tell the first ones apart (Okabe and Ito, 2008); paler ones follow.
 COLORS = (
     "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9",
     "#8c8c8c", "#6a51a3", "#a6761d", "#1b9e9e", "#b2182b", "#66a61e",
@@ -64,7 +64,7 @@ def color_of(report: CostReport, variant: Measured) -> str:
 def draw_plot(report: CostReport) -> list[Line | Dot | Label]:
     """Return the drawing steps of a report's plot; dots are what was rendered.
 
-    Variants that were too short to be timed have no place in it, unless all were.
+    Variants that were too short to be timed are left out, unless all were.
     """
     variants = report.timed or report.variants
     times = [variant.seconds for variant in variants]
@@ -131,7 +131,7 @@ def _paint(color: str) -> str:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return 1, 2 and 5 times the powers of ten in a range; where it is wide, the powers alone."""
+    """Return 1, 2 and 5 times the powers of ten in a range; only the powers if it is wide."""
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     factors = (1.0,) if high / low > 2000.0 else (1.0, 2.0, 5.0)
     ticks = [float(f"{factor}e{power}") for power in powers for factor in factors]

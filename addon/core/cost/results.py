@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was measured of each variant, and what follows from it."""
+"""The measurements of each variant, and what follows from them."""
 
 import math
 import statistics
@@ -7,18 +7,18 @@ from dataclasses import asdict, dataclass, field
 
 from .statistics import ErrorSplit, error_after, samples_to_error
 
-# Seconds of a sample that stand for those too short to be told from the start of a render.
+# Stands for a sample's seconds that cannot be told from the start of a render.
 TOO_SHORT = 1e-7
 
 
 @dataclass(frozen=True)
 class Cost:
-    """What rendering took; lists have one figure a round.
+    """Time and memory of rendering; lists have one number a round.
 
-    wall, processor -- seconds per sample, the start of the render taken off; processor time is
-                       that of all threads together
+    wall, processor -- seconds per sample without the start of the render; processor time is that
+                       of all threads together
     start           -- seconds that a render takes before its samples
-    memory          -- most megabytes that were in use, None if that is not told
+    memory          -- peak in megabytes, None if unknown
     """
 
     wall: tuple[float, ...]
@@ -40,7 +40,7 @@ class Measured:
 
     @property
     def is_timed(self) -> bool:
-        """Whether all rounds took long enough for their times to say something."""
+        """Whether all rounds took long enough to be timed."""
         return min(self.cost.wall) > TOO_SHORT
 
     @property
@@ -64,7 +64,7 @@ class Measured:
         return error_after(self.split, 1.0)
 
     def seconds_to(self, error: float) -> float:
-        """Return the seconds to a relative error, infinite where the bias is above it."""
+        """Return the seconds to a relative error, infinite if the bias is above it."""
         return self.per_sample * samples_to_error(self.split, self.samples, error)
 
     def error_at(self, seconds: float) -> float:
@@ -74,7 +74,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Setting:
-    """Where and how it was measured; what the reports tell besides the figures.
+    """Where and how it was measured; the reports tell it besides the numbers.
 
     seconds and errors of the variants are at `samples` samples and at this size in pixels.
     """
@@ -99,7 +99,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class CostReport:
-    """All of a measurement. `files` are the reports that were written, by what they are."""
+    """A whole measurement. `files` has the paths of the written reports by their kind."""
 
     setting: Setting
     variants: tuple[Measured, ...]
@@ -108,12 +108,12 @@ class CostReport:
 
     @property
     def timed(self) -> tuple[Measured, ...]:
-        """The variants whose times say something."""
+        """The variants that took long enough to be timed."""
         return tuple(variant for variant in self.variants if variant.is_timed)
 
     @property
     def equal_time(self) -> float | None:
-        """Seconds at which errors are compared: those of Fitted, else of the first that is timed.
+        """Seconds at which errors are compared: those of Fitted, or of the first timed variant.
 
         None if none is.
         """
@@ -122,16 +122,16 @@ class CostReport:
         return chosen and chosen.seconds
 
     def ranked(self) -> list[Measured]:
-        """Return the variants, the soonest at the target error first, then by their errors.
+        """Return the variants, those soonest at the target error first, then by their errors.
 
         Those that are too short to be timed come last, by their errors.
         """
         return sorted(self.variants, key=self._rank)
 
     def rows(self) -> list[dict[str, object]]:
-        """Return a row of plain values for each variant; None stands for never and not measured.
+        """Return a row of plain values for each variant. None means never, or not measured.
 
-        What is not `timed` was too short for it.
+        A variant that is not `timed` was too short.
         """
         return [self._row(variant) for variant in self.ranked()]
 

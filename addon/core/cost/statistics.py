@@ -6,25 +6,26 @@ them independent, the mean over pixels, channels and k != l of
 
     (A_k - R_1) (A_l - R_2)
 
-is an unbiased estimate of bias^2: a product of independent differences has the product of their
-means as its mean, so that the noise of the pictures and of the reference cancels. (Such a mean over
-pairs is a U-statistic: W. Hoeffding, "A Class of Statistics with Asymptotically Normal
-Distribution", 1948.) It may come out negative where there is next to no bias.
+is an unbiased estimate of bias^2. The mean of a product of independent differences is the product
+of their means, so the noise of the pictures and of the reference cancels. (Such a mean over pairs
+is a U-statistic: W. Hoeffding, "A Class of Statistics with Asymptotically Normal Distribution",
+1948.) It may be negative if there is almost no bias.
 
-The standard error comes from the same pictures turned by 45 degrees: for two differences D_1, D_2
-of one distribution the product D_1 D_2 and (D_1^2 - D_2^2) / 2 have the same variance where the
-noise is Gaussian (and the latter more where its tails are heavier), but the latter has mean 0. Its
-means over blocks of pixels show their spread, also where neighbouring pixels are correlated.
+The standard error comes from the same pictures turned by 45 degrees. For two differences D_1, D_2
+of one distribution, D_1 D_2 and (D_1^2 - D_2^2) / 2 have the same variance if the noise is
+Gaussian, and the latter has more if the tails are heavier. But the latter has mean 0. Its means
+over blocks of pixels show their spread, even if neighbouring pixels are correlated.
 """
 
 import math
 from dataclasses import dataclass
 from itertools import combinations
 
-# Standard errors by which a bias stands out. Noise has heavy tails, and variants are many.
+# A bias counts from this many standard errors on. Noise has heavy tails, and there are many
+# variants.
 _STANDS_OUT = 3.0
-# Blocks that a picture is divided into along its longer side, for the standard errors, and the
-# fewest pixels along a block's side: a pixel filter makes neighbours alike.
+# For the standard errors: blocks along a picture's longer side, and the fewest pixels along a
+# block's side, because a pixel filter makes neighbours alike.
 _BLOCKS = 12
 _FEWEST = 4
 
@@ -44,7 +45,7 @@ class ErrorSplit:
 
     @property
     def bias(self) -> float:
-        """The bias, 0 where the estimate of its square is negative."""
+        """The bias; 0 if the estimate of its square is negative."""
         return math.sqrt(max(self.bias_square, 0.0))
 
     @property
@@ -56,21 +57,21 @@ class ErrorSplit:
 
     @property
     def resolution(self) -> float:
-        """The bias below which it is not told from none."""
+        """The smallest bias that can be told from none."""
         return math.sqrt(_STANDS_OUT * self.bias_square_se)
 
     @property
     def resolved(self) -> bool:
-        """Whether the bias stands out of its standard error."""
+        """Whether the bias stands out from its standard error."""
         return self.bias_square > _STANDS_OUT * self.bias_square_se
 
     def doubtful(self, error: float) -> bool:
-        """Whether the bias may as well lie on the other side of `error`."""
+        """Whether the bias may lie on the other side of `error`."""
         return abs(self.bias_square - error**2) < _STANDS_OUT * self.bias_square_se
 
 
 def split_error(pictures: "list[numpy.ndarray]", references: "list[numpy.ndarray]") -> ErrorSplit:
-    """Return the error of a variant of which there are two pictures or more.
+    """Return the error of a variant from two pictures or more.
 
     All pictures are linear radiance of one shape (height, width, channels), `references` are two.
     Raises ValueError for other numbers or shapes, for values that are not finite, and for a black
@@ -86,7 +87,7 @@ def split_error(pictures: "list[numpy.ndarray]", references: "list[numpy.ndarray
     first, second = (_finite(picture, references[0].shape) for picture in references)
     taken = [_finite(picture, first.shape) for picture in pictures]
     reference = 0.5 * (first + second)
-    # Unbiased: the square of the mean holds its noise as well.
+    # Unbiased, unlike the square of the mean, which holds its noise too.
     level = float(np.mean(first * second))
     if not level > 0.0:
         raise ValueError("The reference is black: check camera and lights of the scene")
@@ -117,7 +118,7 @@ def reference_noise(references: "list[numpy.ndarray]") -> float:
 
 
 def samples_to_error(split: ErrorSplit, samples: int, error: float) -> float:
-    """Return how many samples reach a relative error, infinite where the bias stands above it.
+    """Return the samples that reach a relative error, infinite if the bias is above it.
 
     The noise falls with the root of the number of samples; `samples` are those of the pictures.
     """
@@ -142,7 +143,7 @@ def _finite(picture: "numpy.ndarray", shape: tuple[int, ...]) -> "numpy.ndarray"
 
 
 def _square_se(values: "numpy.ndarray") -> float:
-    """Return the squared standard error of the mean of values that are 0 in the mean."""
+    """Return the squared standard error of the mean of values whose expectation is 0."""
     import numpy as np
 
     height, width = values.shape[:2]

@@ -10,12 +10,12 @@ from .results import CostReport, Measured
 
 
 def to_json(report: CostReport) -> str:
-    """Return all of a report; what is never reached or was not measured is null."""
+    """Return a whole report. Null means never reached, or not measured."""
     return json.dumps(report.as_dict(), indent=2, allow_nan=False) + "\n"
 
 
 def to_csv(report: CostReport) -> str:
-    """Return a line for each variant; what is never reached or was not measured is empty.
+    """Return a line for each variant. Empty means never reached, or not measured.
 
     Seconds per sample are those of all rounds with spaces between.
     """
@@ -30,7 +30,7 @@ def to_csv(report: CostReport) -> str:
 
 
 def headings(report: CostReport) -> tuple[str, ...]:
-    """Return what heads the columns of cells()."""
+    """Return the headings of the columns of cells()."""
     time = report.equal_time
     return (
         "Variant",
@@ -46,7 +46,7 @@ def headings(report: CostReport) -> tuple[str, ...]:
 
 
 def cells(report: CostReport, variant: Measured) -> tuple[str, ...]:
-    """Return what a table shows of a variant."""
+    """Return the texts of a variant's row."""
     row = next(row for row in report.rows() if row["key"] == variant.key)
     memory = row["memory_mb"]
     return (
@@ -63,7 +63,7 @@ def cells(report: CostReport, variant: Measured) -> tuple[str, ...]:
 
 
 def sort_keys(report: CostReport, variant: Measured) -> tuple[object, ...]:
-    """Return what the columns of cells() are sorted by; None comes last."""
+    """Return the keys that sort the columns of cells(); None comes last."""
     row = next(row for row in report.rows() if row["key"] == variant.key)
     names = ("variant", "seconds_to_error", "error_at_equal_time", "bias", "noise", "seconds")
     more = ("processor_seconds", "start_seconds", "memory_mb")
