@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the errors of surfaces make up that of a picture, and how it is shared out among them."""
+"""Adds the errors of surfaces to that of a picture, and shares a tolerance out among them."""
 
 from collections.abc import Iterable
 
@@ -7,9 +7,9 @@ DEFAULT_TOLERANCE = 0.01
 
 
 def picture_error(shares_and_errors: Iterable[tuple[float, float]]) -> float:
-    """Return the error of a picture whose surfaces are as bright as one another.
+    """Return the error of a picture whose surfaces are equally bright.
 
-    Their squared errors add up by their shares of the picture.
+    Squared errors add up in proportion to the surfaces' shares of the picture.
     """
     return sum(share * error**2 for share, error in shares_and_errors) ** 0.5
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Predicts what each step of Quality leaves out of a surface, and what it costs.
+"""Predicts the error and the cost of each Quality for a surface, and what decides on Walk for
+Fitted.
 
 Errors are image L2 of the surface's own light without noise: the root of the summed squared
-difference from all bounces over that of all bounces, in the hardest of the lights that were tried.
+difference from all bounces over that of all bounces. They hold for the hardest of the measured
+lights.
 """
 
 from collections.abc import Sequence
@@ -24,7 +26,7 @@ _WALKS = SHARED["Walks"].default
 
 @dataclass(frozen=True)
 class Choice:
-    """What is set on a material's node: `quality` is one of QUALITIES."""
+    """The settings of a material's node; `quality` is one of QUALITIES."""
 
     quality: str
     max_bounces: int
@@ -43,7 +45,7 @@ class Surface:
     anisotropy    -- 0 to 1
     distributions -- numbers of Distribution that occur
     models        -- numbers of Model that occur
-    colour        -- the brightest that is left of light after a bounce, each 0 to 1
+    colour        -- the largest part of light left after a bounce, each channel 0 to 1
     ior           -- of glass
     tolerance     -- the largest Tolerance of the node
     walks         -- Walks of the node
@@ -63,7 +65,7 @@ class Surface:
     def alphas(self) -> Interval:
         """Smallest and largest value of the larger of both alphas.
 
-        An isotropic surface of that alpha has more light of further bounces.
+        An isotropic surface of that alpha has more light in further bounces.
         """
         return tuple(map(larger_alpha, self.roughness, self.anisotropy))
 
@@ -87,7 +89,7 @@ class Surface:
 
 
 def larger_alpha(roughness: float, anisotropy: float) -> float:
-    """Return the larger of both alphas, as the shader makes them."""
+    """Return the larger of both alphas, as the shader computes it from roughness."""
     return min(roughness * roughness / (1.0 - 0.9 * anisotropy) ** 0.5, 1.0)
 
 
@@ -95,7 +97,7 @@ def larger_alpha(roughness: float, anisotropy: float) -> float:
 def missing_after(surface: Surface, of: str = "left_out") -> tuple[float, ...]:
     """Return what is missing after bounce 1, 2, ... of the surface's own light and colours.
 
-    It is image L2, or energy where `of` is "lost".
+    It is image L2, or energy if `of` is "lost".
     """
     white = [
         left_out(surface.kind, distribution, model, surface.alphas, surface.ior, of)
@@ -113,7 +115,7 @@ def predicted_loss(surface: Surface, choice: Choice) -> float:
 
 
 def predicted_error(surface: Surface, choice: Choice) -> float:
-    """Return how far off the surface is with this choice; Exact is off by what it leaves out."""
+    """Return the error of the surface with this choice. Exact is off by what it leaves out."""
     missing = missing_after(surface)
     ended = _after(missing, _bounces_of(choice))
     if choice.quality == "Exact":
@@ -124,7 +126,7 @@ def predicted_error(surface: Surface, choice: Choice) -> float:
 
 
 def predicted_cost(surface: Surface, choice: Choice) -> float:
-    """Return the cost of a sample; that of metal of alpha 0.25 in Single is 1."""
+    """Return the cost of a sample. Metal of alpha 0.25 in Single costs 1."""
     single = cost(surface.kind, "Single", surface.alphas)
     walk = cost(surface.kind, "Walk", surface.alphas)
     walk = single + (walk - single) * surface.walks / _WALKS
@@ -142,9 +144,9 @@ def fewest_bounces(surface: Surface, room: float) -> int:
 
 
 def _coloured(white: Sequence[float], colour: Colour) -> tuple[float, ...]:
-    """Return `missing_after` where each bounce takes on the colour.
+    """Return `missing_after` with the colour of each bounce.
 
-    What bounces after the first one add has nearly one shape: their norms add up.
+    Bounces after the first have nearly the same shape, so their norms add up.
     """
     each = [a - b for a, b in pairwise((1.0, *white, 0.0))]
     channels = [[part * c ** (k + 1) for k, part in enumerate(each)] for c in colour]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Proposes the cheapest Quality of every surface that keeps the picture within a tolerance.
 
-All surfaces start with their cheapest step. As long as the picture is too far off, that change is
-made which lowers its squared error most for the time that it takes.
+All surfaces start with their cheapest step. Then the change that lowers the squared error most for
+its time is made, until the picture is within the tolerance.
 """
 
 from collections.abc import Sequence
@@ -20,17 +20,17 @@ from .prediction import (
 )
 from .step_errors import STEPS, background
 
-# Costs as near as this count as one: they were measured no better.
+# Costs closer than this count as equal, because they were measured no better.
 _SAME_COST = 0.02
-# And a step must be nearer by this part of the error to be worth its cost.
+# A step must lower the error by this part to be worth its cost.
 _SAME_ERROR = 0.1
-# What Max Bounces may leave out, of a surface's equal part of the tolerance.
+# The part of a surface's tolerance that Max Bounces may leave out.
 _PART_OF_BOUNCES = 0.25
 
 
 @dataclass(frozen=True)
 class Shown:
-    """A surface, what is set on it, and its share of the picture, 0 to 1.
+    """A surface, its settings, and its share of the picture, 0 to 1.
 
     fixed -- why it stays as it is, "" if it may change
     """
@@ -43,11 +43,11 @@ class Shown:
 
 @dataclass(frozen=True)
 class Option:
-    """A choice for a surface, and what is predicted of it.
+    """A choice for a surface, with its prediction.
 
     error -- image L2 of its own light
-    cost  -- of a pixel's sample, that of metal of alpha 0.25 in Single being 1
-    loss  -- the part of its light, as energy, that is left out
+    cost  -- of a pixel's sample; metal of alpha 0.25 in Single costs 1
+    loss  -- the part of its light that is left out, as energy
     """
 
     choice: Choice
@@ -58,11 +58,11 @@ class Option:
 
 @dataclass(frozen=True)
 class Proposal:
-    """What is proposed for a surface, and why.
+    """The proposal for a surface, with its reason.
 
-    now, then             -- what is set and what is proposed
-    error_now, error_then -- predicted, as in Option; and so are the costs and losses
-    steps                 -- what is predicted of every Quality, with as many bounces as it takes
+    now, then             -- the present and the proposed choice
+    error_now, error_then -- predicted, as in Option; so are the costs and losses
+    steps                 -- the prediction for every Quality, with as many bounces as it takes
     """
 
     now: Choice
@@ -84,10 +84,10 @@ class Proposal:
 
 
 def propose(shown: Sequence[Shown], tolerance: float) -> list[Proposal]:
-    """Return a proposal for each surface: together they cost least and are within the tolerance.
+    """Return a proposal for each surface. Together they cost least and are within the tolerance.
 
-    Where they cannot be, all take their nearest step that is worth its cost. Exact is never
-    proposed, and elsewhere than in Walk, where fewer bounces save time, Max Bounces is only raised.
+    If that is impossible, all take their closest step that is worth its cost. Exact is never
+    proposed. Max Bounces is lowered only in Walk, where fewer bounces save time.
     """
     ladders = [_ladder(one, len(shown), tolerance) for one in shown]
     everything = [_options(*row) for row in zip(shown, ladders, strict=True)]
@@ -112,7 +112,7 @@ def total_error(proposals: Sequence[Proposal]) -> tuple[float, float]:
 def time_of(shares_and_costs: Sequence[tuple[float, float]], empty: float) -> float:
     """Return the time of a sample of the picture, in units of the costs.
 
-    empty -- the part of the picture that shows the world alone; what else there is besides the
+    empty -- the part of the picture that shows only the world. Everything else besides the
              surfaces costs 1
     """
     rest = max(1.0 - empty - sum(share for share, _ in shares_and_costs), 0.0)
@@ -127,7 +127,7 @@ def time_ratio(proposals: Sequence[Proposal], empty: float = 0.0) -> float:
 
 
 def _ladder(one: Shown, count: int, tolerance: float) -> tuple[Option, ...]:
-    """Return what is predicted of every Quality."""
+    """Return the prediction for every Quality."""
     surface, now = one.surface, one.now
     room = _PART_OF_BOUNCES * equal_part(one.share, count, tolerance)
     fewest = fewest_bounces(surface, room)
@@ -136,12 +136,12 @@ def _ladder(one: Shown, count: int, tolerance: float) -> tuple[Option, ...]:
 
 
 def _options(one: Shown, ladder: Sequence[Option]) -> list[Option]:
-    """Return what can be chosen: what is set alone where it must stay."""
+    """Return the possible choices; only the present one if it must stay."""
     if one.fixed:
         return [_option(one.surface, one.now)]
     steps = [step for step in STEPS if step != "Fitted" or one.surface.fitted]
     if one.now.quality == "Fitted" and not one.surface.fitted:
-        steps[-1] = "Fitted"  # it takes Walk by itself
+        steps[-1] = "Fitted"  # Fitted takes Walk by itself there
     return [option for option in ladder if option.choice.quality in steps]
 
 
@@ -161,7 +161,7 @@ def _bounces(surface: Surface, step: str, now: Choice, fewest: int) -> int:
 
 
 def _worth(options: Sequence[Option]) -> list[Option]:
-    """Return those that are nearer than all cheaper ones, by rising cost."""
+    """Return the options that are closer than all cheaper ones, by rising cost."""
     kept: list[Option] = []
     for option in sorted(options, key=lambda option: option.cost):
         if kept and option.error > (1.0 - _SAME_ERROR) * kept[-1].error:
@@ -173,10 +173,10 @@ def _worth(options: Sequence[Option]) -> list[Option]:
 
 
 def _upgrades(options: Sequence[Option]) -> list[tuple[float, Option]]:
-    """Return the changes from the cheapest option to the nearest, by falling gain.
+    """Return the changes from the cheapest option to the closest, by falling gain.
 
-    The gain is what the squared error falls by for a unit of cost. What gains less than a later
-    option is passed over.
+    The gain is the fall of the squared error per unit of cost. An option that gains less than a
+    later one is passed over.
     """
     found, at = [], 0
     while at < len(options) - 1:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much of the light a metal's facets reflect, averaged over the directions it comes from."""
+"""The reflectance of a metal's facets, averaged over the directions of the light."""
 
 from collections.abc import Callable, Sequence
 
 Colour = tuple[float, float, float]
 
-# The mean over a hemisphere of light is taken at so many equal parts of sin^2.
+# The mean over a hemisphere of light takes this many equal parts of sin^2.
 _PARTS = 16
 _COS_82 = 1.0 / 7.0  # where the edge tint is defined
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each step of Quality leaves out, is off and costs, as measured (step_errors.toml)."""
+"""The measured losses, errors and costs of each Quality (step_errors.toml)."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ FILE = Path(__file__).with_name("step_errors.toml")
 STEPS = ("Single", "Fitted", "Walk")
 NAMES = ("GGX", "BECKMANN")  # of the distributions, by the numbers of the parameter Distribution
 
-# Sorts of surfaces whose errors were measured. The models are numbers of the parameter Model.
+# Sorts of surfaces with measured errors. The models are numbers of the parameter Model.
 ISOTROPIC, ANISOTROPIC = "isotropic", "anisotropic"
 
 Interval = tuple[float, float]
@@ -26,14 +26,14 @@ def left_out(
     iors: Interval = (1.5, 1.5),
     of: str = "left_out",
 ) -> tuple[float, ...]:
-    """Return what is missing after bounce 1, 2, ... where facets absorb nothing.
+    """Return what is missing after bounce 1, 2, ... if facets absorb nothing.
 
     alphas -- smallest and largest larger alpha, 0 to 1
     iors   -- of glass, and 1 over them alike
     of     -- "left_out" for image L2, "lost" for energy
 
-    It is the most over both intervals, from the nearest indices that were measured on both sides;
-    between alphas it is linear, which is too much rather than too little.
+    It is the most over both intervals, from the closest measured indices on both sides. It is
+    linear between alphas, which is too much rather than too little.
     """
     by_index = _by_index(of, kind_named(kind).identifier, NAMES[distribution], model)
     wanted = _around(sorted(by_index), iors) if kind == "DIELECTRIC" else by_index
@@ -51,7 +51,7 @@ def left_out(
 def off(kind: str, distribution: int, sort: str, step: str, alphas: Interval) -> float:
     """Return the largest error of the converged picture, as image L2, over the larger `alphas`.
 
-    `step` is one of STEPS. Of Single it is the error of the first bounce. A `sort` that was not
+    `step` is one of STEPS. For Single it is the error of the first bounce. A `sort` that was not
     measured for this distribution takes the other's error, or that of isotropic surfaces.
     """
     name = NAMES[distribution]
@@ -74,7 +74,7 @@ def cost(kind: str, step: str, alphas: Interval) -> float:
 
 
 def background() -> float:
-    """Return the cost of a sample of a pixel that shows the world alone, as cost() does."""
+    """Return the cost of a sample of a pixel that shows only the world, in the units of cost()."""
     return _tables()["background"]
 
 

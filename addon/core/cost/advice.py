@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sentence that says, from the numbers, which step of the ladder to take."""
+"""Says in one sentence, from the numbers, which Quality to take."""
 
 import math
 from collections.abc import Sequence
@@ -13,9 +13,8 @@ UNTIMED = "too short"
 def recommendation(variants: Sequence[Measured], error: float) -> str:
     """Return which step reaches a relative error soonest, and how the others compare.
 
-    Where none does, it names the one that comes nearest and its bias; where the steps were not
-    measured, it compares what was. What the noise leaves open is told as open, and no times are
-    compared that are none.
+    If none does, it names the closest one and its bias. If no Quality was measured, it compares the
+    other variants. It says what the noise leaves open, and compares only real times.
     """
     steps = [v for v in variants if v.family == "step"] or list(variants)
     open_ones = [v for v in steps if v.split.doubtful(error)]
@@ -61,9 +60,9 @@ def _comparison(best: Measured, others: Sequence[Measured], error: float) -> lis
 
 
 def seconds(variant: Measured, error: float) -> str:
-    """Return the time of a variant to an error in words, "never" where it does not come.
+    """Return the time of a variant to an error in words, "never" if it does not get there.
 
-    A question mark follows where the noise leaves open whether it does.
+    A question mark follows if the noise leaves that open.
     """
     if not variant.is_timed:
         return UNTIMED
@@ -73,7 +72,7 @@ def seconds(variant: Measured, error: float) -> str:
 
 
 def spent(time: float | None) -> str:
-    """Return seconds in words, or that they were too few to be told from a render's start."""
+    """Return seconds in words, or that they were too short to measure."""
     return UNTIMED if time is None else duration(time)
 
 
@@ -85,7 +84,7 @@ def duration(time: float) -> str:
 
 
 def bias_text(variant: Measured) -> str:
-    """Return the bias with its standard error, or below what it is not resolved."""
+    """Return the bias with its standard error, or the bound below which it is not resolved."""
     split = variant.split
     if split.resolved:
         return f"{_percent(split.bias)} ± {_percent(split.bias_se)}"
