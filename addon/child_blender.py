@@ -57,7 +57,7 @@ class ChildBlender:
         return self._process.poll() is None
 
     def failure(self) -> str:
-        """Return why it failed, its last line of errors, once it does not run; "" where all went
+        """Return why it failed, its last line of errors, once it does not run; "" if all went
         well."""
         if self._process.returncode == 0:
             return ""

@@ -39,7 +39,7 @@ def preferences(context: bpy.types.Context) -> Preferences:
 
 
 def stored_preferences(context: bpy.types.Context) -> bpy.types.AddonPreferences | None:
-    """Return what Blender keeps, for panels to draw; None where it keeps nothing."""
+    """Return what Blender keeps, for panels to draw; None if it keeps nothing."""
     addon = context.preferences.addons.get(_PACKAGE)
     return addon.preferences if addon is not None else None
 

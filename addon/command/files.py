@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The .blend file that a subcommand works on: opening it, and saving only where that was asked."""
+"""The .blend file that a subcommand works on: opening it, and saving only if that was asked."""
 
 import argparse
 import os
@@ -37,7 +37,7 @@ def add_dry_run_argument(parser: argparse.ArgumentParser) -> None:
 def open_file(arguments: argparse.Namespace) -> Path:
     """Open the file of `--file`, or take the one that is open, and return its path.
 
-    Python scripts in the file are not run. Raises CommandError where there is no such .blend file.
+    Python scripts in the file are not run. Raises CommandError if there is no such .blend file.
     """
     if arguments.file is None:
         if not bpy.data.filepath:
@@ -58,7 +58,7 @@ def open_file(arguments: argparse.Namespace) -> Path:
 
 
 def check_target(arguments: argparse.Namespace) -> None:
-    """Raise CommandError where the file could not be saved as asked; call it before the work."""
+    """Raise CommandError if the file could not be saved as asked; call it before the work."""
     target = arguments.save_as
     if getattr(arguments, "dry_run", False) and (target is not None or arguments.save):
         raise CommandError("A dry run saves nothing: leave out --dry-run, or what saves")
@@ -74,9 +74,9 @@ def check_target(arguments: argparse.Namespace) -> None:
 
 
 def save_file(arguments: argparse.Namespace) -> str:
-    """Save as `--save` or `--save-as` ask; return the path, "" where neither was given.
+    """Save as `--save` or `--save-as` ask; return the path, "" if neither was given.
 
-    Raises CommandError where the file cannot be written, or a newer Blender's would lose data.
+    Raises CommandError if the file cannot be written, or a newer Blender's would lose data.
     """
     if arguments.save_as is None and not arguments.save:
         return ""

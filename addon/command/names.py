@@ -12,7 +12,7 @@ from .output import CommandError
 def named_item(word: str, items: tuple[Preset | Finish, ...], noun: str) -> Preset | Finish:
     """Return the one item of that identifier, file name or name, in small or capital letters.
 
-    Raises CommandError with close names where there is none, and with those there are where
+    Raises CommandError with close names if there is none, and with those there are where
     several have the name.
     """
     found = [item for item in items if word.casefold() in _names(item)]
@@ -35,7 +35,7 @@ def _names(item: Preset | Finish) -> tuple[str, ...]:
 def named_material(name: str) -> bpy.types.Material:
     """Return the file's own material `name`, else a linked one.
 
-    Raises CommandError with close names where there is none.
+    Raises CommandError with close names if there is none.
     """
     found = [material for material in bpy.data.materials if material.name == name]
     if not found:

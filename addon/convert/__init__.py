@@ -44,7 +44,7 @@ def plan(material: bpy.types.Material, direction: str = TO_OURS) -> Conversion:
 def needed_groups(materials: Iterable[bpy.types.Material]) -> dict[str, bpy.types.NodeTree]:
     """Return the node groups, by kind, that `to_microbounce` puts into `materials`.
 
-    Makes them where the file has none. Raises one of GROUP_ERRORS where that fails.
+    Makes them where the file has none. Raises one of GROUP_ERRORS if that fails.
     """
     steps = [step for material in materials for step in _checked_steps(material, TO_OURS)[0]]
     return {kind: material_group(kind) for kind in sorted({step.made.target for step in steps})}
@@ -56,7 +56,7 @@ def to_microbounce(
     """Put nodes of ours in the place of native ones, where they have a counterpart.
 
     `groups` are the `needed_groups`, found here where they are None: for many materials, finding
-    them takes most of the time. Raises one of GROUP_ERRORS where a node group cannot be made;
+    them takes most of the time. Raises one of GROUP_ERRORS if a node group cannot be made;
     nothing is changed then.
     """
     steps, stay = _checked_steps(material, TO_OURS)

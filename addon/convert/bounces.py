@@ -58,7 +58,7 @@ def _note_scaled(made: Translation) -> None:
 def distribution_to_native(ours: State, made: Translation) -> None:
     """Set the node's `distribution` from Distribution and Quality.
 
-    Raises NotConvertibleError where Distribution is linked or animated.
+    Raises NotConvertibleError if Distribution is linked or animated.
     """
     need_fixed(ours, "Distribution", "the native node's distribution takes no link")
     single = ours.is_fixed("Quality", _SINGLE)

@@ -27,7 +27,7 @@ NATIVE_TYPES = frozenset(FAMILIES) | frozenset(_WITHOUT_COUNTERPART)
 def translated_to_ours(native: State) -> Translation:
     """Return what a native node's state becomes in a node of ours; its target is our kind.
 
-    Raises NotConvertibleError where it has no counterpart.
+    Raises NotConvertibleError if it has no counterpart.
     """
     if native.idname in _WITHOUT_COUNTERPART:
         raise NotConvertibleError(_WITHOUT_COUNTERPART[native.idname])
@@ -40,7 +40,7 @@ def translated_to_native(kind: str, ours: State, was: State | None) -> Translati
     """Return what the state of a node of ours becomes in a native node; its target is the type.
 
     `was` is the native state that it was made from, whose type is taken, or None for the nearest
-    type. Raises NotConvertibleError where that type cannot show it.
+    type. Raises NotConvertibleError if that type cannot show it.
     """
     family = NEAREST[kind] if was is None else FAMILIES[was.idname]
     return family.back(_within_limits(kind, ours), was)

@@ -104,7 +104,7 @@ class Formula:
     ) -> tuple[bpy.types.NodeSocket, list[bpy.types.Node]] | None:
         """Return what goes into the nodes that were put in for it and give `source`, and them.
 
-        They come from the last to the first. None where there are none, or they were changed.
+        They come from the last to the first. None if there are none, or they were changed.
         """
         curves, nodes = input_curves(source.id_data), []
         for operation in reversed(self.operations):

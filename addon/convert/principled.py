@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Principled BSDF, where it is a metal, a glass or a matte surface and nothing besides."""
+"""Principled BSDF if it is a metal, a glass or a matte surface and nothing besides."""
 
 from .bounces import distribution_to_native, distribution_to_ours, note_isotropic
 from .diffuse import matte_roughness_to_native, matte_roughness_to_ours

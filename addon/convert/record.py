@@ -45,7 +45,7 @@ class Record:
 
 
 def read_record(node: bpy.types.Node) -> Record | None:
-    """Return the record that `node` keeps; None where it has none, or one that cannot be read."""
+    """Return the record that `node` keeps; None if it has none, or one that cannot be read."""
     text = node.get(RECORD_KEY)
     if not isinstance(text, str):
         return None

@@ -75,7 +75,7 @@ def lost_links(node: bpy.types.Node, carried: dict[str, str]) -> list[Link]:
 
 
 def source_of(tree: bpy.types.NodeTree, link: Link) -> bpy.types.NodeSocket | None:
-    """Return the output that `link` came from, None where it is gone."""
+    """Return the output that `link` came from, None if it is gone."""
     node = tree.nodes.get(link.node)
     outputs = node.outputs if node is not None else ()
     return next((socket for socket in outputs if socket.identifier == link.output), None)

@@ -10,9 +10,9 @@ class Entry:
 
     node   -- its name, "" for the material
     source -- what it is, such as "Glossy BSDF"
-    target -- what it becomes, such as "Microbounce Conductor"; "" where it stays
+    target -- what it becomes, such as "Microbounce Conductor"; "" if it stays
     notes  -- what will not look the same
-    reason -- why it stays, with the remedy; "" where it does not
+    reason -- why it stays, with the remedy; "" if it does not
     """
 
     node: str

@@ -27,7 +27,7 @@ class Step:
     entry  -- what users are told
     state  -- what the node holds now
     made   -- what it becomes
-    record -- the record that was used, None where there was none
+    record -- the record that was used, None if there was none
     curves -- what animates its inputs
     """
 

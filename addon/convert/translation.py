@@ -77,7 +77,7 @@ class Family(NamedTuple):
 
 
 def need_fixed(source: State, name: str, why: str) -> None:
-    """Raise NotConvertibleError where input `name` is linked or animated."""
+    """Raise NotConvertibleError if input `name` is linked or animated."""
     if name in source.varying:
         raise NotConvertibleError(
             f"{name} is linked or animated, and {why}: unlink it and set a value"
@@ -85,7 +85,7 @@ def need_fixed(source: State, name: str, why: str) -> None:
 
 
 def need_value(source: State, name: str, why: str, *allowed: SocketValue) -> None:
-    """Raise NotConvertibleError where input `name` is not fixed at one of the values `allowed`."""
+    """Raise NotConvertibleError if input `name` is not fixed at one of the values `allowed`."""
     if source.is_fixed(name, *allowed):
         return
     given = "linked or animated" if name in source.varying else value_text(source.values[name])

@@ -15,7 +15,7 @@ class Finding:
     level   -- one of LEVELS
     subject -- what it is about, such as "Material 'Gold'"
     message -- what is wrong, a sentence
-    remedy  -- what to do, a sentence; "" where nothing needs doing
+    remedy  -- what to do, a sentence; "" if nothing needs doing
     """
 
     level: str
@@ -42,7 +42,7 @@ class Finding:
 
 
 def worst(findings: Iterable[Finding]) -> str:
-    """Return the worst level among `findings`, "" where there are none."""
+    """Return the worst level among `findings`, "" if there are none."""
     levels = {finding.level for finding in findings}
     return next((level for level in LEVELS if level in levels), "")
 

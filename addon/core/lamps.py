@@ -27,7 +27,7 @@ class Lamp:
 
     @property
     def why_missed(self) -> str:
-        """Return why no path can hit it, "" where one can."""
+        """Return why no path can hit it, "" if one can."""
         if self.size <= 0.0:
             return f"{_SIZE[self.kind]} 0"
         if not self.multiple_importance:
@@ -38,7 +38,7 @@ class Lamp:
 def exact_warning(lamps: Iterable[Lamp]) -> str:
     """Return which of `lamps` do not light a material of quality Exact, and the remedy.
 
-    Returns "" where it finds all of them.
+    Returns "" if it finds all of them.
     """
     missed = [lamp for lamp in lamps if lamp.why_missed]
     if not missed:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 class Status:
     """Whether the shaders run. Where `ok` is False, `reason` and `remedy` are short sentences.
 
-    `can_enable` is True where switching Open Shading Language on is what is missing.
+    `can_enable` is True if switching Open Shading Language on is what is missing.
     """
 
     ok: bool
@@ -18,7 +18,7 @@ class Status:
 
     @property
     def message(self) -> str:
-        """Reason and remedy in one text, "" where the shaders run."""
+        """Reason and remedy in one text, "" if the shaders run."""
         return " ".join(part for part in (self.reason, self.remedy) if part)
 
 

@@ -28,7 +28,7 @@ _SYMBOLS = ("local", "temp", "const", "global")
 class OsoParameter:
     """A parameter as the compiled shader declares it.
 
-    `default` holds one or three numbers, or none for a closure. `computed` is True where the
+    `default` holds one or three numbers, or none for a closure. `computed` is True if the
     default is an expression, such as the shading normal, and `default` says nothing.
     """
 
@@ -42,7 +42,7 @@ class OsoParameter:
 def oso_parameters(bytecode: str) -> tuple[OsoParameter, ...]:
     """Return the shader's parameters and outputs in the order of their declaration.
 
-    Raises ValueError where the text is no compiled shader.
+    Raises ValueError if the text is no compiled shader.
     """
     if not bytecode.startswith("OpenShadingLanguage"):
         raise ValueError(f"not a compiled shader: it starts with {bytecode[:20]!r}")

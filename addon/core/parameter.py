@@ -46,7 +46,7 @@ class Parameter:
 
     @property
     def is_vector(self) -> bool:
-        """True where a value is three numbers."""
+        """True if a value is three numbers."""
         return self.type in VECTOR_TYPES
 
     def checked(self, value: object) -> Value:

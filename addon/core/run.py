@@ -21,7 +21,7 @@ class Progress:
 
     part -- from 0 to 1
     text -- what is done now
-    left -- seconds that remain, None where nothing tells yet
+    left -- seconds that remain, None if nothing tells yet
     """
 
     part: float = 0.0
@@ -37,13 +37,13 @@ class Run(Protocol[Result]):
     """Long work that is under way; close() it whatever happens."""
 
     def advance(self) -> bool:
-        """Go on, and return whether it is still under way. Raises RunError where it failed."""
+        """Go on, and return whether it is still under way. Raises RunError if it failed."""
 
     def progress(self) -> Progress:
         """Return how far it is."""
 
     def result(self) -> Result:
-        """Return what came of it, once it is not under way. Raises RunError where it failed."""
+        """Return what came of it, once it is not under way. Raises RunError if it failed."""
 
     def close(self) -> None:
         """End it, if it has not ended, and clean up."""

@@ -18,7 +18,7 @@ def shader_directory() -> Path:
     """Return the folder of the .osl files.
 
     Inside the installed extension it lies in the package; in the repository, beside it.
-    Raises ShaderSourceError where neither exists.
+    Raises ShaderSourceError if neither exists.
     """
     package = Path(__file__).resolve().parent.parent
     for folder in (package / "osl", package.parent / "osl"):
@@ -33,7 +33,7 @@ def inlined_source(name: str, directory: Path | None = None) -> str:
     """Return the text of shader `name` ("microbounce_conductor") with its headers put in place.
 
     Each header is taken once, at its first `#include "..."`, relative to the including file and
-    then to `directory` (default: shader_directory()). Raises ShaderSourceError where a file is
+    then to `directory` (default: shader_directory()). Raises ShaderSourceError if a file is
     missing or cannot be read.
     """
     directory = shader_directory() if directory is None else directory

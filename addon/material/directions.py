@@ -33,7 +33,7 @@ def _make_direction(
 ) -> bpy.types.NodeSocketVector:
     """Add nodes that pass on `given`, or `default` where it is no direction; return their output.
 
-    A native material is black where its normal or tangent has length 0, as from a UV map that is
+    A native material is black if its normal or tangent has length 0, as from a UV map that is
     missing, or where a component is not finite.
     """
     nodes, links = group.nodes, group.links

@@ -73,7 +73,7 @@ def add_group_node(
 
 
 def script_node(group: bpy.types.ShaderNodeTree) -> bpy.types.Node | None:
-    """Return the group's script node, None where it has none."""
+    """Return the group's script node, None if it has none."""
     return next((node for node in group.nodes if node.bl_idname == "ShaderNodeScript"), None)
 
 

@@ -37,8 +37,8 @@ def osl_compiler_available() -> bool:
 def compile_source(source: str) -> str:
     """Return the bytecode (.oso text) of an OSL source without includes of its own.
 
-    Works in the temporary folder alone. Raises OslUnavailableError where Blender has no OSL and
-    ShaderCompileError, with the compiler's message, where it fails.
+    Works in the temporary folder alone. Raises OslUnavailableError if Blender has no OSL and
+    ShaderCompileError, with the compiler's message, if it fails.
     """
     if not osl_compiler_available():
         raise OslUnavailableError(
@@ -78,7 +78,7 @@ def fill_script_node(
     """Give a script node the sockets, source text and bytecode it lacks; return the text block.
 
     With an empty `bytecode` (no compiler in this Blender) the node never runs. Raises ValueError
-    where the bytecode does not declare `parameters`; then nothing is changed.
+    if the bytecode does not declare `parameters`; then nothing is changed.
     """
     if bytecode:
         check_against(parameters, bytecode)

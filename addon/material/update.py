@@ -34,7 +34,7 @@ def old_groups() -> list[bpy.types.NodeTree]:
     """Return the file's groups of ours that older versions made and that a node uses.
 
     Those of newer versions and those that are linked from libraries are left out. Raises
-    ShaderSourceError where the installation is damaged.
+    ShaderSourceError if the installation is damaged.
     """
     found = [g for g in bpy.data.node_groups if g.users and not g.library and _is_old(g)]
     if not found:
@@ -48,7 +48,7 @@ def update_materials() -> Update:
     """Put today's groups in the place of old ones, with the values and links of the same names.
 
     Works on all that has shader nodes in the file. Old groups and their texts are removed where
-    nothing uses them any more. Raises one of GROUP_ERRORS where a group cannot be made; nothing is
+    nothing uses them any more. Raises one of GROUP_ERRORS if a group cannot be made; nothing is
     changed then.
     """
     forget_stamps()  # the sources may have changed on disk
@@ -90,7 +90,7 @@ def _shader_trees() -> Iterator[tuple[bpy.types.ID, bpy.types.NodeTree]]:
 
 
 def _why_not_updatable(owner: bpy.types.ID, node: bpy.types.Node) -> str:
-    """Return why an old node cannot be changed, with the remedy; "" where it can or is not old."""
+    """Return why an old node cannot be changed, with the remedy; "" if it can or is not old."""
     group = node.node_tree
     if not is_of_another_version(group):
         return ""

@@ -37,7 +37,7 @@ class Placed:
 
     @property
     def node(self) -> bpy.types.ShaderNodeGroup:
-        """The node, looked up anew: adding nodes may move it in memory."""
+        """The node, looked up again: adding nodes may move it in memory."""
         return self.tree.nodes[self.name]
 
     @property

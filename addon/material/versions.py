@@ -15,7 +15,7 @@ from .group import STAMP_KEY, VERSION_KEY, group_stamp
 def is_of_another_version(group: bpy.types.NodeTree) -> bool:
     """Return whether a group is one of ours, and not today's.
 
-    Raises ShaderSourceError where the installation is damaged.
+    Raises ShaderSourceError if the installation is damaged.
     """
     kind = group.get(KIND_KEY)
     return kind in KINDS and group.get(STAMP_KEY) != _todays_stamp(kind)

@@ -24,7 +24,7 @@ _kept: "tuple[str, Analysis] | None" = None
 
 
 def last_analysis(context: bpy.types.Context) -> "Analysis | None":
-    """Return the last analysis of the context's scene, None where there is none."""
+    """Return the last analysis of the context's scene, None if there is none."""
     if _kept is None:
         return None
     path, analysis = _kept

@@ -64,7 +64,7 @@ class _Converts(Polled):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return that the file has no materials; "" where it has."""
+        """Return that the file has no materials; "" if it has."""
         return "" if surface_materials() else _needs_materials("ALL")
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -136,7 +136,7 @@ class MICROBOUNCE_OT_show_cost_plot(Polled, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return that nothing was measured; "" where there is a plot."""
+        """Return that nothing was measured; "" if there is a plot."""
         return "" if _last is not None else "There is no plot: press Measure Cost first"
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -23,7 +23,7 @@ _last: dict[int, tuple[Finding, ...]] = {}
 
 
 def last_farm_findings(scene: bpy.types.Scene) -> tuple[Finding, ...] | None:
-    """Return what the last check of `scene` found, None where there was none."""
+    """Return what the last check of `scene` found, None if there was none."""
     return _last.get(scene.session_uid)
 
 

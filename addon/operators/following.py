@@ -14,7 +14,7 @@ class FollowsRun:
     """Shows how far a run is, ends it on Esc, and takes its result.
 
     A subclass has `title`, what is done, start() and finish(). `progress` is that of the run under
-    way, None where there is none. With `alone` all else waits, as for work on the scene itself.
+    way, None if there is none. With `alone` all else waits, as for work on the scene itself.
     """
 
     title = ""
@@ -25,7 +25,7 @@ class FollowsRun:
     _timer: bpy.types.Timer | None = None
 
     def start(self, context: bpy.types.Context) -> Run:
-        """Return a new run. Raises RunError where it cannot begin."""
+        """Return a new run. Raises RunError if it cannot begin."""
         raise NotImplementedError
 
     def finish(self, context: bpy.types.Context, result: object) -> set[str]:
@@ -102,7 +102,7 @@ class FollowsRun:
         type(self).progress = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
-        if context.workspace is not None:  # None where Blender quits or loads another file
+        if context.workspace is not None:  # None if Blender quits or loads another file
             context.workspace.status_text_set(None)
         redraw_panels(context)
 

@@ -21,7 +21,7 @@ _FOLDERS = (_PACKAGE / "assets", _PACKAGE.parent / "build" / "assets")
 def library_folder(context: bpy.types.Context) -> Path | None:
     """Return the folder of the asset library: the one in the preferences, else the extension's own.
 
-    None where there is no library in it.
+    None if there is no library in it.
     """
     return _look(context)[0]
 
@@ -103,7 +103,7 @@ class MICROBOUNCE_OT_unregister_library(Polled, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return that the library was not added; "" where it was."""
+        """Return that the library was not added; "" if it was."""
         if registered_libraries(context):
             return ""
         return "The asset library is not in the preferences"
@@ -121,7 +121,7 @@ CLASSES = (MICROBOUNCE_OT_register_library, MICROBOUNCE_OT_unregister_library)
 
 
 def register() -> None:
-    """Look at the folders anew: another version may have been installed into them."""
+    """Look at the folders again: another version may have been installed into them."""
     forget()
 
 

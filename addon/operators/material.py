@@ -16,7 +16,7 @@ _TYPES = frozenset({"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINT
 
 
 def why_no_material(obj: bpy.types.Object | None) -> str:
-    """Return why `obj` cannot be given a material, with the remedy; "" where it can."""
+    """Return why `obj` cannot be given a material, with the remedy; "" if it can."""
     if obj is None:
         return "There is no active object: select one"
     if obj.type not in _TYPES:

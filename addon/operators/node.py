@@ -31,7 +31,7 @@ class MICROBOUNCE_OT_add_node(Polled, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return why no node can be added here, with the remedy; "" where one can."""
+        """Return why no node can be added here, with the remedy; "" if one can."""
         space = context.space_data
         if space is None or space.type != "NODE_EDITOR" or space.tree_type != "ShaderNodeTree":
             return "This works in the Shader editor: open one"

@@ -26,7 +26,7 @@ class MICROBOUNCE_OT_enable_osl(Polled, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return why it would not help; "" where it does."""
+        """Return why it would not help; "" if it does."""
         status = osl_status(context)
         if not status.can_enable:
             return status.message or "Open Shading Language is on"

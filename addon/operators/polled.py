@@ -11,7 +11,7 @@ class Polled:
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return why it is not available here; "" where it is."""
+        """Return why it is not available here; "" if it is."""
         raise NotImplementedError
 
     @classmethod

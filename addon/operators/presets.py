@@ -25,7 +25,7 @@ from .polled import Polled
 # What applying raises for a preset or a material that will not do; the messages are for users.
 APPLY_ERRORS = (PresetError, MaterialError, TypeError, *GROUP_ERRORS)
 
-# Blender keeps no copies of the texts of a list that is made anew: they must stay referenced.
+# Blender keeps no copies of the texts of a list that is made again: they must stay referenced.
 _search_items: list[tuple[str, str, str, int, int]] = []
 
 
@@ -44,7 +44,7 @@ def shown_material(context: bpy.types.Context) -> bpy.types.Material | None:
 
 
 def why_no_preset(context: bpy.types.Context) -> str:
-    """Return why no preset can be applied here, with the remedy; "" where one can."""
+    """Return why no preset can be applied here, with the remedy; "" if one can."""
     material = shown_material(context)
     if material is None:
         return object_material.why_no_material(context.object)
@@ -52,7 +52,7 @@ def why_no_preset(context: bpy.types.Context) -> str:
 
 
 def why_no_finish(context: bpy.types.Context) -> str:
-    """Return why no finish can be applied here, with the remedy; "" where one can."""
+    """Return why no finish can be applied here, with the remedy; "" if one can."""
     material = shown_material(context)
     if material is None or material_node(material) is None:
         return "No Microbounce node feeds the material's output: apply a preset first"

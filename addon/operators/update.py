@@ -26,7 +26,7 @@ class MICROBOUNCE_OT_update_materials(Polled, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return why nothing can be updated, with the remedy; "" where something can."""
+        """Return why nothing can be updated, with the remedy; "" if something can."""
         from ..material.update import old_groups
 
         try:

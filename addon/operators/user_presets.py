@@ -86,7 +86,7 @@ class MICROBOUNCE_OT_save_preset(Polled, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context: bpy.types.Context) -> str:
-        """Return that there is no node of ours; "" where there is one."""
+        """Return that there is no node of ours; "" if there is one."""
         if material_node(shown_material(context)) is not None:
             return ""
         return "No Microbounce node feeds the material's output: add one"

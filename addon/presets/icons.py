@@ -15,7 +15,7 @@ def picture_path(identifier: str) -> Path:
 
 
 def icon(identifier: str) -> int:
-    """Return the icon of a preset's picture; 0, which is none, where there is no picture."""
+    """Return the icon of a preset's picture; 0, which is none if there is no picture."""
     global _icons
     import bpy.utils.previews
 
