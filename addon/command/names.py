@@ -12,7 +12,7 @@ from .output import CommandError
 def named_item(word: str, items: tuple[Preset | Finish, ...], noun: str) -> Preset | Finish:
     """Return the one item of that identifier, file name or name, in small or capital letters.
 
-    Raises CommandError with close names if there is none, and with those there are where
+    Raises CommandError with close names if there is none, and with all matching names if
     several have the name.
     """
     found = [item for item in items if word.casefold() in _names(item)]

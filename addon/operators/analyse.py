@@ -12,14 +12,14 @@ from ..text import message
 from .following import FollowsRun
 from .redraw import redraw_panels
 
-# What does the work is imported when it is called: a start of Blender pays nothing for it.
+# The module that does the work is imported when it is needed, so Blender starts no slower.
 if TYPE_CHECKING:
     from ..analysis.analyse import Analysis
 
-# What images and the shares of the picture may take, so that no scene holds Blender up for long.
+# Time for images and shares of the picture, so that no scene holds Blender up for long.
 _SECONDS = 5.0
 
-# The last analysis, with the file to which it belongs; nothing of it is stored in the file.
+# The last analysis and its file. Nothing of it is stored in the file.
 _kept: "tuple[str, Analysis] | None" = None
 
 
@@ -44,8 +44,8 @@ class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
 
     tolerance: bpy.props.FloatProperty(
         name="Tolerance",
-        description="How far off the picture may be: the root of its mean squared error, "
-        "relative to the picture, apart from noise; that of the preferences unless given",
+        description="How far off the picture may be, apart from noise: the root of its mean "
+        "squared error, relative to the picture. Unless given, it is that of the preferences",
         default=DEFAULT_TOLERANCE,
         min=0.0005,
         max=1.0,
@@ -72,7 +72,7 @@ class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
         return self.wait(context)
 
     def start(self, context: bpy.types.Context) -> "PiecewiseRun[Analysis]":
-        """Begin to analyse."""
+        """Start the analysis."""
         from ..analysis.analyse import analysis_pieces
 
         given = self.properties.is_property_set("tolerance")
@@ -80,7 +80,7 @@ class MICROBOUNCE_OT_analyse(FollowsRun, bpy.types.Operator):
         return PiecewiseRun(analysis_pieces(context, tolerance, _SECONDS))
 
     def finish(self, context: bpy.types.Context, analysis: "Analysis") -> set[str]:
-        """Keep the table for the panels, and analysis how many materials could change."""
+        """Keep the table for the panels, and report how many materials could change."""
         global _kept
         _kept = (bpy.data.filepath, analysis)
         redraw_panels(context)
@@ -121,7 +121,7 @@ class MICROBOUNCE_OT_apply_analysis(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Set the values; name what has changed since the analysis and was left."""
+        """Set the values; name the nodes that were left because they have changed since."""
         from ..analysis.analyse import apply_analysis
 
         done, left = apply_analysis(context, last_analysis(context))
@@ -142,7 +142,7 @@ CLASSES = (MICROBOUNCE_OT_analyse, MICROBOUNCE_OT_apply_analysis)
 
 
 def register() -> None:
-    """Begin without a table."""
+    """Start without a table."""
     global _kept
     _kept = None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs on demand the check that also runs before each render."""
+"""Runs the check on demand that also runs before each render."""
 
 import bpy
 
@@ -9,7 +9,7 @@ from .redraw import redraw_panels
 
 
 class MICROBOUNCE_OT_check_render(bpy.types.Operator):
-    """Report what keeps materials of ours in the scene from looking as they should."""
+    """Report what keeps our materials in the scene from looking as they should."""
 
     bl_idname = "microbounce.check_render"
     bl_label = "Check Before Rendering"
@@ -20,7 +20,7 @@ class MICROBOUNCE_OT_check_render(bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Report each finding; warnings, for errors would stop scripts."""
+        """Report each finding as a warning at most, because errors would stop scripts."""
         findings = check_scene(context.scene, context.preferences)
         if findings is None:
             forget(context.scene)

@@ -27,7 +27,7 @@ class MICROBOUNCE_OT_set_choice(Polled, bpy.types.Operator):
         return why_no_finish(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Set it, unless its value comes from elsewhere."""
+        """Set it, unless the input is linked."""
         node = material_node(shown_material(context))
         try:
             left = set_values(node, {self.parameter: self.value})

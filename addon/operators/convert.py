@@ -13,7 +13,7 @@ from .osl import osl_status
 from .polled import Polled
 from .presets import shown_material
 
-# Imported when it is first used, so that the extension starts sooner.
+# Imported when it is first used, so that Blender starts no slower.
 if TYPE_CHECKING:
     from ..convert import Conversion
 
@@ -55,7 +55,7 @@ class _Converts(Polled):
     bl_options = {"REGISTER", "UNDO"}
 
     scope: bpy.props.EnumProperty(name="Scope", description="Which materials", items=_SCOPES)
-    # Not in the panel of the last operation: a conversion that was made is no dry run any more.
+    # Hidden in the panel of the last operation, because a finished conversion is no dry run.
     dry_run: bpy.props.BoolProperty(
         name="Dry Run",
         description="Report what would be done, and change nothing",
@@ -70,7 +70,7 @@ class _Converts(Polled):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Convert, and report every node that changes its look or stays, and a summary.
 
-        A dry run is cancelled, for what is finished leaves a step to undo.
+        A dry run ends as cancelled, because a finished operator leaves a step to undo.
         """
         materials = materials_in(context, self.scope)
         if not materials:
@@ -88,7 +88,7 @@ class _Converts(Polled):
         return {"CANCELLED" if self.dry_run else "FINISHED"}
 
     def warn(self, context: bpy.types.Context) -> None:
-        """Warn of what stands in the way of the result; nothing does, unless a subclass says so."""
+        """Warn of problems with the result; a subclass may have some."""
 
     def _convert(
         self, manager: bpy.types.WindowManager, materials: list[bpy.types.Material]
@@ -130,7 +130,7 @@ def summary(done: "list[Conversion]", dry_run: bool) -> str:
 
 
 class MICROBOUNCE_OT_to_microbounce(_Converts, bpy.types.Operator):
-    """Put nodes of ours in the place of native ones."""
+    """Replace native nodes by ours."""
 
     bl_idname = "microbounce.to_microbounce"
     bl_label = "Convert to Microbounce"
@@ -146,20 +146,20 @@ class MICROBOUNCE_OT_to_microbounce(_Converts, bpy.types.Operator):
         return partial(plan, direction=TO_OURS)
 
     def converter(self, materials: list[bpy.types.Material]) -> Function:
-        """Return what converts each of `materials`; groups that cannot be made stop it here."""
+        """Return the converter of each of `materials`. It raises here if a group cannot be made."""
         from ..convert import needed_groups, to_microbounce
 
         return partial(to_microbounce, groups=needed_groups(materials))
 
     def warn(self, context: bpy.types.Context) -> None:
-        """Warn where the shaders will not run."""
+        """Warn if the shaders will not run."""
         status = osl_status(context)
         if not status.ok:
             self.report({"WARNING"}, status.message)
 
 
 class MICROBOUNCE_OT_to_native(_Converts, bpy.types.Operator):
-    """Put native nodes in the place of ours."""
+    """Replace our nodes by native ones."""
 
     bl_idname = "microbounce.to_native"
     bl_label = "Convert to Cycles"

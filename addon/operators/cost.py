@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures what accuracy costs in the open scene, and what belongs to that."""
+"""Measures what accuracy costs in the open scene; shows the plot and clears the cache."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,16 +13,16 @@ from .following import FollowsRun
 from .polled import Polled
 from .redraw import redraw_panels
 
-# Imported when it is used: a start of Blender pays nothing for it.
+# Imported when it is used, so that Blender starts no slower.
 if TYPE_CHECKING:
     from ..cost.run import CostRun
 
-# What the last measurement of this session found, as CostReport.as_dict() has it; None before it.
+# The last measurement of this session, as CostReport.as_dict() has it; None before the first.
 _last: dict[str, object] | None = None
 
 
 def last_measurement() -> dict[str, object] | None:
-    """Return what the last measurement found, None before the first."""
+    """Return the last measurement, None before the first."""
     return _last
 
 
@@ -56,16 +56,16 @@ class MICROBOUNCE_PG_cost(CostOptions, bpy.types.PropertyGroup):
 
 
 class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
-    """Render the scene's variants in a Blender of their own, and report."""
+    """Render the scene's variants in another Blender, and report."""
 
     bl_idname = "microbounce.measure_cost"
     bl_label = "Measure Cost"
     bl_description = (
         "Render this view with each quality and with Cycles' own materials, in the background, "
-        "and show how much time each takes to which error. Where the scene has a render region, "
-        "that part alone is rendered. The scene stays as it is"
+        "and show how much time each takes to which error. If the scene has a render region, only "
+        "that part is rendered. The scene stays as it is"
     )
-    # No UNDO: nothing of the scene changes, and a step back should not be spent on it.
+    # No UNDO, because nothing in the scene changes.
     bl_options = {"REGISTER"}
 
     title = "Measuring the cost"
@@ -87,7 +87,7 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
         return self.wait(context)
 
     def start(self, context: bpy.types.Context) -> "CostRun":
-        """Begin to measure what is asked for."""
+        """Start to measure."""
         from ..cost.run import CostRun
 
         try:
@@ -106,7 +106,7 @@ class MICROBOUNCE_OT_measure_cost(CostOptions, FollowsRun, bpy.types.Operator):
 
 
 class MICROBOUNCE_OT_clear_cost_cache(bpy.types.Operator):
-    """Remove the references that were kept."""
+    """Remove the stored references."""
 
     bl_idname = "microbounce.clear_cost_cache"
     bl_label = "Clear Cost Cache"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tells of the material shown which lights of the scene it misses by its quality Exact."""
+"""Names the lights of the scene that the material shown misses in quality Exact."""
 
 import bpy
 
@@ -15,7 +15,7 @@ def active_tree(context: bpy.types.Context) -> bpy.types.NodeTree | None:
     space = context.space_data
     if space is not None and space.type == "NODE_EDITOR":
         return space.node_tree
-    # Only the Properties editor has this one, and only in some of its tabs.
+    # Only some tabs of the Properties editor have this.
     material = getattr(context, "material", None)
     if material is None and context.object is not None:
         material = context.object.active_material

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks on demand whether the file renders on a farm, without the extension, as it does here."""
+"""Checks on demand whether the file renders on a farm without the extension as it does here."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,13 +12,13 @@ from ..text import message
 from .following import FollowsRun
 from .redraw import redraw_panels
 
-# Imported when it is used: a start of Blender pays nothing for it.
+# Imported when it is used, so that Blender starts no slower.
 if TYPE_CHECKING:
     from ..farm.proof import Proof, ProofRun
 
 _PROVE = "Also render the saved file small, with and without the extension, and compare"
 
-# What the check of a scene found last, by the scene's number in this session.
+# The findings of the last check, by the scene's number in this session.
 _last: dict[int, tuple[Finding, ...]] = {}
 
 
@@ -60,7 +60,7 @@ class MICROBOUNCE_OT_check_farm(FollowsRun, bpy.types.Operator):
         return cls.is_idle()
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Check; a proof is made while Blender goes on being used."""
+        """Check; the proof runs while Blender stays usable."""
         return self.follow(context) if self.prove else self.execute(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -68,7 +68,7 @@ class MICROBOUNCE_OT_check_farm(FollowsRun, bpy.types.Operator):
         return self.wait(context) if self.prove else self.finish(context, None)
 
     def start(self, context: bpy.types.Context) -> "ProofRun":
-        """Begin to prove the file as it is saved."""
+        """Start to prove the saved file."""
         from ..farm.proof import ProofRun
 
         # Without a window Blender does not keep track of changes.
@@ -100,10 +100,10 @@ CLASSES = (MICROBOUNCE_OT_check_farm,)
 
 
 def register() -> None:
-    """Begin without findings."""
+    """Start without findings."""
     _last.clear()
 
 
 def unregister() -> None:
-    """Drop what was found."""
+    """Drop the findings."""
     _last.clear()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators share that follow a run, such as of other Blenders while this one is used."""
+"""The base of operators that follow a long run, such as one in another Blender."""
 
 import bpy
 
@@ -13,8 +13,8 @@ _INTERVAL = 0.25  # seconds between looks at the run
 class FollowsRun:
     """Shows how far a run is, ends it on Esc, and takes its result.
 
-    A subclass has `title`, what is done, start() and finish(). `progress` is that of the run under
-    way, None if there is none. With `alone` all else waits, as for work on the scene itself.
+    A subclass has `title`, start() and finish(). `progress` is that of the present run, None if
+    there is none. With `alone` everything else waits, as for work on the scene itself.
     """
 
     title = ""
@@ -34,13 +34,13 @@ class FollowsRun:
 
     @classmethod
     def is_idle(cls) -> bool:
-        """Return whether none is under way; for poll(), to which the reason is told."""
+        """Return whether no run is under way; poll() shows the reason."""
         if cls.progress is not None:
             cls.poll_message_set("It is under way: Esc cancels it")
         return cls.progress is None
 
     def wait(self, context: bpy.types.Context) -> set[str]:
-        """Run and wait for the end, as scripts want it."""
+        """Run and wait for the end, as scripts expect."""
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
@@ -57,7 +57,7 @@ class FollowsRun:
         return self.finish(context, result)
 
     def follow(self, context: bpy.types.Context) -> set[str]:
-        """Run while Blender is used; where there is no window, wait."""
+        """Run while Blender stays usable. Without a window, wait."""
         if bpy.app.background:
             return self.wait(context)
         try:
@@ -97,7 +97,7 @@ class FollowsRun:
         return self.finish(context, result)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """End what is under way, also when Blender quits or loads another file."""
+        """End the run, also if Blender quits or loads another file."""
         self._run.close()
         type(self).progress = None
         context.window_manager.event_timer_remove(self._timer)

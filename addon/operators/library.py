@@ -13,7 +13,7 @@ NAME = "Microbounce"
 BLEND = "microbounce.blend"
 
 
-# Inside the installed extension it lies in the package; in the repository, in `build`.
+# It lies in the package of the installed extension, and in `build` of the repository.
 _PACKAGE = Path(__file__).resolve().parent.parent
 _FOLDERS = (_PACKAGE / "assets", _PACKAGE.parent / "build" / "assets")
 
@@ -43,7 +43,7 @@ def _look(context: bpy.types.Context) -> tuple[Path | None, frozenset[str]]:
     return _look_at(chosen and bpy.path.abspath(chosen), tuple(item.path for item in libraries))
 
 
-@lru_cache(maxsize=1)  # panels ask at every redraw, and a folder may lie on a network
+@lru_cache(maxsize=1)  # panels ask at every redraw, and a folder may be on a network
 def _look_at(chosen: str, registered: tuple[str, ...]) -> tuple[Path | None, frozenset[str]]:
     """Return the folder of the asset library, and which of the folders `registered` are ours."""
     folders = (Path(chosen),) if chosen else _FOLDERS
@@ -81,7 +81,7 @@ class MICROBOUNCE_OT_register_library(Polled, bpy.types.Operator):
         return ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Add it; saving the preferences is left to the user's own setting."""
+        """Add it. The user's own setting decides whether preferences are saved."""
         forget()
         reason = self.why_not(context)
         if reason:  # since the panel was drawn
@@ -126,5 +126,5 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Drop what was found."""
+    """Drop the results."""
     forget()

@@ -11,7 +11,7 @@ from .kinds import KIND_ITEMS
 from .osl import osl_status
 from .polled import Polled
 
-# Types whose data hold surface materials. A volume has no surface, and grease pencil has its own.
+# Types whose data have surface materials. Volumes have no surface; grease pencil has its own.
 _TYPES = frozenset({"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD"})
 
 
@@ -38,9 +38,9 @@ def _keeps_materials(data: bpy.types.ID) -> bool:
 
 
 def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None:
-    """Put `material` into the active slot of `obj`, or a first one where it has none.
+    """Put `material` into the active slot of `obj`, or into a new one if it has none.
 
-    Where the object's data are linked, the slot is switched from the data to the object.
+    If the object's data is linked, the slot switches from the data to the object.
     """
     if not obj.material_slots:
         obj.data.materials.append(material)
@@ -52,7 +52,7 @@ def assign_material(obj: bpy.types.Object, material: bpy.types.Material) -> None
 
 
 class MICROBOUNCE_OT_add_material(Polled, bpy.types.Operator):
-    """Give the active object a new material of ours."""
+    """Give the active object a new Microbounce material."""
 
     bl_idname = "microbounce.add_material"
     bl_label = "Add Microbounce Material"
@@ -75,7 +75,7 @@ class MICROBOUNCE_OT_add_material(Polled, bpy.types.Operator):
         return why_no_material(context.object)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Make the material, assign it, and warn where its shader will not run."""
+        """Make the material, assign it, and warn if its shader will not run."""
         obj = context.object
         try:
             quality = preferences(context).quality

@@ -56,7 +56,7 @@ class MICROBOUNCE_OT_add_node(Polled, bpy.types.Operator):
         return result
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Add the node at the editor's cursor, selected, and warn where it will not run."""
+        """Add the node at the editor's cursor, selected, and warn if it will not run."""
         space = context.space_data
         tree = space.edit_tree
         try:

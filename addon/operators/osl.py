@@ -10,7 +10,7 @@ from .polled import Polled
 
 
 def osl_status(context: bpy.types.Context) -> Status:
-    """Return whether the shaders run in the context's scene, else why not and what to do."""
+    """Return whether the shaders run in the context's scene, or why not and what to do."""
     return scene_status(context.scene, context.preferences)
 
 
@@ -35,7 +35,7 @@ class MICROBOUNCE_OT_enable_osl(Polled, bpy.types.Operator):
         return ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Set the switch; warn where the device stands in the way or lights will be missed."""
+        """Set the switch; warn if the device has no OSL or lights will be missed."""
         context.scene.cycles.shading_system = True
         status = osl_status(context)
         warning = status.message or missed_lights(context)

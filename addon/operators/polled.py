@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators share that tell why they are not available."""
+"""The base of operators that say why they are not available."""
 
 import bpy
 
@@ -16,7 +16,7 @@ class Polled:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow it where nothing stands in the way; say what does otherwise."""
+        """Allow it, or show why not."""
         reason = cls.why_not(context)
         if reason:
             cls.poll_message_set(message(reason))

@@ -22,17 +22,17 @@ from . import material as object_material
 from .osl import osl_status
 from .polled import Polled
 
-# What applying raises for a preset or a material that will not do; the messages are for users.
+# Raised for a preset or a material that cannot be used. The messages are for users.
 APPLY_ERRORS = (PresetError, MaterialError, TypeError, *GROUP_ERRORS)
 
-# Blender keeps no copies of the texts of a list that is made again: they must stay referenced.
+# Blender does not copy the texts of a generated list, so they must stay referenced.
 _search_items: list[tuple[str, str, str, int, int]] = []
 
 
 def shown_material(context: bpy.types.Context) -> bpy.types.Material | None:
     """Return the material in the Shader editor or the material properties, pinned ones included.
 
-    Elsewhere, and where a Shader editor shows none, it is the active object's.
+    Elsewhere, or if a Shader editor shows none, it is the active object's.
     """
     space = context.space_data
     shown = getattr(context, "material", None)
@@ -76,9 +76,9 @@ def apply_to_shown(
 def reported(
     operator: bpy.types.Operator, context: bpy.types.Context, work: Callable[[], list[str]]
 ) -> set[str]:
-    """Apply by `work`, which returns the labels of inputs that were left; return the result.
+    """Run `work`, which returns the labels of inputs that were left; return the operator's result.
 
-    An error is reported, and so are those inputs, and where the shader will not run.
+    Errors, those inputs, and a shader that will not run are reported.
     """
     try:
         left = work()
@@ -86,7 +86,7 @@ def reported(
         operator.report({"ERROR"}, str(error))
         return {"CANCELLED"}
     if left:
-        operator.report({"INFO"}, f"Left as they are, since they are linked: {', '.join(left)}")
+        operator.report({"INFO"}, f"Left as they are, because they are linked: {', '.join(left)}")
     status = osl_status(context)
     if not status.ok:
         operator.report({"WARNING"}, status.message)
@@ -94,7 +94,7 @@ def reported(
 
 
 class AppliesPreset(Polled):
-    """What the operators that apply a preset share."""
+    """The base of operators that apply a preset."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -116,7 +116,7 @@ class AppliesPreset(Polled):
 
 
 class MICROBOUNCE_OT_apply_preset(AppliesPreset, bpy.types.Operator):
-    """Apply a preset that the extension brings."""
+    """Apply one of the extension's presets."""
 
     bl_idname = "microbounce.apply_preset"
     bl_label = "Apply Microbounce Preset"

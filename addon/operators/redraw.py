@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws our panels again; Blender does so by itself only if a button was pressed."""
+"""Redraws our panels. Blender itself does so only after a button was pressed."""
 
 import bpy
 
@@ -7,7 +7,7 @@ _EDITORS = ("PROPERTIES", "NODE_EDITOR")
 
 
 def redraw_panels(context: bpy.types.Context) -> None:
-    """Draw again the editors that have panels of ours."""
+    """Redraw the editors that have our panels."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in _EDITORS:

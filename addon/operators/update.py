@@ -8,13 +8,13 @@ import bpy
 from ..material.group import GROUP_ERRORS
 from .polled import Polled
 
-# Imported when it is first used, so that the extension starts sooner.
+# Imported when it is first used, so that Blender starts no slower.
 if TYPE_CHECKING:
     from ..material.update import Update
 
 
 class MICROBOUNCE_OT_update_materials(Polled, bpy.types.Operator):
-    """Put today's node groups in the place of older ones."""
+    """Replace older node groups by today's."""
 
     bl_idname = "microbounce.update_materials"
     bl_label = "Update Materials"

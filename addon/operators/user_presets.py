@@ -22,7 +22,7 @@ from .presets import AppliesPreset, shown_material
 def shown_name(path: Path) -> str:
     """Return the name in a preset's file, which may have letters that the file's name lacks.
 
-    It is the file's own where that cannot be read.
+    If the file cannot be read, it is the file's own name.
     """
     try:
         return _read_name(path, path.stat().st_mtime_ns)
@@ -80,7 +80,7 @@ class MICROBOUNCE_OT_save_preset(Polled, bpy.types.Operator):
     bl_idname = "microbounce.save_preset"
     bl_label = "Save Microbounce Preset"
     bl_description = "Save the values of the material's Microbounce node as a preset of your own"
-    bl_options = {"INTERNAL"}  # a file is written: there is nothing to undo in the scene
+    bl_options = {"INTERNAL"}  # it writes a file, so there is nothing to undo
 
     name: bpy.props.StringProperty(name="Name", description="Name of the preset", maxlen=64)
 
@@ -92,7 +92,7 @@ class MICROBOUNCE_OT_save_preset(Polled, bpy.types.Operator):
         return "No Microbounce node feeds the material's output: add one"
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Ask for the name, the material's to begin with."""
+        """Ask for the name and suggest the material's."""
         self.name = shown_material(context).name[:64]
         return context.window_manager.invoke_props_dialog(self)
 
@@ -129,7 +129,7 @@ class MICROBOUNCE_OT_remove_user_preset(bpy.types.Operator):
     bl_idname = "microbounce.remove_user_preset"
     bl_label = "Remove Saved Microbounce Preset"
     bl_description = "Delete the file of this preset"
-    bl_options = {"INTERNAL"}  # a file is deleted: undo would not bring it back
+    bl_options = {"INTERNAL"}  # it deletes a file, which undo would not bring back
 
     filepath: bpy.props.StringProperty(
         name="File", description="The preset's file", subtype="FILE_PATH", options={"SKIP_SAVE"}
@@ -143,7 +143,9 @@ class MICROBOUNCE_OT_remove_user_preset(bpy.types.Operator):
         """Delete the file, if it is one of the presets."""
         path = Path(self.filepath)
         if not any(path in user_presets(kind) for kind in KINDS):
-            self.report({"ERROR"}, f"{path} is none of the saved presets: choose one of the menu")
+            self.report(
+                {"ERROR"}, f"{path} is not one of the saved presets: choose one from the menu"
+            )
             return {"CANCELLED"}
         try:
             path.unlink()

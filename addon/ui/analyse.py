@@ -14,7 +14,7 @@ from .panels import draw_lines, in_both_editors
 if TYPE_CHECKING:
     from ..analysis.analyse import Analysis, Row
 
-# As many rows as a panel shows; what changes comes first.
+# The most rows that a panel shows, changes first.
 _MOST_ROWS = 24
 
 
@@ -41,7 +41,7 @@ def _draw_analysis_table(
         layout.label(text="Shares are equal: there is no camera to find them", icon="INFO")
     if analysis.part < 1.0:
         text = label(
-            "Shares are rough: time was over at {part} of the rays", part=percent(analysis.part)
+            "Shares are rough: time ran out after {part} of the rays", part=percent(analysis.part)
         )
         layout.label(text=text, icon="INFO")
     changes = analysis.changes

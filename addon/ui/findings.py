@@ -15,7 +15,7 @@ ICONS = {"error": "CANCEL", "warning": "ERROR", "note": "INFO"}
 def draw_findings(
     layout: bpy.types.UILayout, context: bpy.types.Context, findings: Iterable[Finding]
 ) -> None:
-    """Draw each finding in a box with its remedy, or that there are none."""
+    """Draw each finding with its remedy in a box, or that there are none."""
     found = False
     for finding in findings:
         found = True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the check before each render: what it finds goes to the console and to the panels."""
+"""Runs the check before each render and shows its findings in the console and the panels."""
 
 import sys
 
@@ -8,7 +8,7 @@ from bpy.app.handlers import persistent
 
 from ..scene import before_render
 
-# What reading a file's data raises where they are not as expected.
+# Raised while reading file data that is not as expected.
 _ERRORS = (
     AttributeError,
     LookupError,
@@ -22,7 +22,7 @@ _ERRORS = (
 
 @persistent
 def check_before_render(scene: bpy.types.Scene, *_: object) -> None:
-    """Print what the check finds, once until it changes. A render goes on in any case."""
+    """Print the findings, once until they change. The render goes on in any case."""
     try:
         findings = before_render.check_scene(scene, bpy.context.preferences)
         if findings is None:
@@ -41,6 +41,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Check no more, and drop what was found."""
+    """Stop checking, and drop the findings."""
     bpy.app.handlers.render_init.remove(check_before_render)
     before_render.forget_all()

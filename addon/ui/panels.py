@@ -13,17 +13,17 @@ from ..operators.osl import MICROBOUNCE_OT_enable_osl, osl_status
 from ..text import label, message
 from .choices import draw_choices
 
-# Pixels at scale 1: of a character, rounded up, and of what a line has at its sides.
+# Pixels at scale 1: the width of a character, rounded up, and of a line's margins.
 _CHARACTER, _SIDES = 6.5, 72
 
-# What says where a panel is.
+# The class attributes that say where a panel is.
 _PLACE = ("bl_space_type", "bl_region_type", "bl_category", "bl_context")
 
 
 def draw_state(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Say whether the shaders run, where OSL is merely off offering to switch it on.
+    """Say whether the shaders run. If OSL is merely off, offer to switch it on.
 
-    Where they run, name the lights that the material shown misses because of its quality Exact.
+    If they run, name the lights that the material shown misses in quality Exact.
     """
     status = osl_status(context)
     if not status.ok:
@@ -77,7 +77,7 @@ class MICROBOUNCE_PT_shader_editor(bpy.types.Panel):
         return context.space_data.tree_type == "ShaderNodeTree"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is to know before rendering, the node's choices, and buttons for new nodes."""
+        """Draw the state, the node's choices, and buttons for new nodes."""
         draw_state(self.layout, context)
         draw_choices(self.layout, context)
         draw_buttons(self.layout, MICROBOUNCE_OT_add_node.bl_idname)
@@ -94,11 +94,11 @@ class MICROBOUNCE_PT_material(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Show it wherever the material tab is: for an object, or for a pinned material."""
+        """Show it in the material tab, for an object or a pinned material."""
         return context.object is not None or getattr(context, "material", None) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is to know before rendering, the node's choices, and buttons for a new one."""
+        """Draw the state, the node's choices, and buttons for a new material."""
         draw_state(self.layout, context)
         draw_choices(self.layout, context)
         draw_buttons(self.layout, MICROBOUNCE_OT_add_material.bl_idname)

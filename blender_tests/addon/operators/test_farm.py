@@ -25,8 +25,6 @@ def scene(registered):
 
 
 def draw(bpy, panel):
-    from addon.ui import farm
-
     system = SimpleNamespace(ui_scale=1.0)
     context = SimpleNamespace(
         scene=bpy.context.scene,
@@ -34,7 +32,7 @@ def draw(bpy, panel):
         preferences=SimpleNamespace(system=system),
     )
     record = Record()
-    getattr(farm, panel).draw(SimpleNamespace(layout=record), context)
+    getattr(bpy.types, panel).draw(SimpleNamespace(layout=record), context)
     return record
 
 
