@@ -58,11 +58,11 @@ _OF_ALL_KINDS: tuple[Parameter, ...] = (
         1,
         (0, 3),
         (0, 3),
-        tooltip="How the light of further bounces is found. Single leaves it out. Fitted adds "
-        "lobes from a table, without noise; glass that the camera does not see takes a walk, and "
-        "wide GGX glass keeps Single's noise. Walk smooths the exits of a few walks. Exact has no "
-        "bias and the most noise, and finds lights only by hitting them. Fitted takes Walk for "
-        "other models than height-correlated, for Bounce Only, for anisotropic glass and matte "
+        tooltip="How further bounces are computed. Single leaves them out. Fitted adds lobes from "
+        "tables, without noise; but glass that the camera does not see takes a walk, and very rough "
+        "GGX glass has Single's noise. Walk follows a few random walks and smooths their exits. "
+        "Exact has no bias but the most noise, and finds lights only by hitting them. Fitted "
+        "becomes Walk for another Model, for Bounce Only, for anisotropic glass and matte "
         "surfaces, and for glass of an IOR below 1.05 or above 2.5",
         choices=("Single", "Fitted", "Walk", "Exact"),
         panel=BOUNCES_PANEL,
@@ -111,8 +111,7 @@ _OF_ALL_KINDS: tuple[Parameter, ...] = (
         0.001,
         (0.0, 1.0),
         (0.0, 0.02),
-        tooltip="Further bounces are left out where the energy they still carry, as a part of the "
-        "light that arrives, is below this",
+        tooltip="Bounces that carry less than this part of the arriving light are left out",
         panel=BOUNCES_PANEL,
     ),
     Parameter(
@@ -123,8 +122,8 @@ _OF_ALL_KINDS: tuple[Parameter, ...] = (
         (1, 16),
         (1, 8),
         unit="walks",
-        tooltip="Walks at every shading point in Walk: more have less noise and take longer. Glass "
-        "that the camera does not see at once takes one",
+        tooltip="Random walks at each shading point, in Walk. More have less noise and take "
+        "longer. Glass that the camera does not see directly takes one",
         panel=BOUNCES_PANEL,
     ),
     Parameter(
@@ -135,8 +134,8 @@ _OF_ALL_KINDS: tuple[Parameter, ...] = (
         (0.05, 1.0),
         (0.2, 0.6),
         unit="rad",
-        tooltip="Half-width of the lobe around the exit of each walk in Walk: wider has less noise "
-        "and a softer shape",
+        tooltip="Half-width of the lobe around each walk's exit, in Walk. Wider has less noise and "
+        "a softer shape",
         panel=BOUNCES_PANEL,
     ),
     Parameter(
