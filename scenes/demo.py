@@ -211,7 +211,7 @@ def main() -> None:
     if arguments.picture:
         comparison.write_jpeg(arguments.picture, picture)
 
-    white = furnace.energies(metals, compared, folder / "blender.log")
+    white = furnace.energies(metals, {v.key: v.apply for v in compared}, folder / "blender.log")
     print_report(compared, index, metals, white, per_pass)
     print(f"\n{time.perf_counter() - begin:.0f} s in all. Look at {folder / 'comparison.png'}")
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures how much light lossless surfaces return, in furnace_conductor.blend."""
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -10,17 +10,20 @@ from tqdm import tqdm
 
 from . import render, variants
 
-if TYPE_CHECKING:
-    from .demo import Variant
-
 SCENE = Path(__file__).resolve().parent / "furnace_conductor.blend"
 SIZE = 48
 SAMPLES = 32
 SURFACE = ("Roughness", "Anisotropy", "Rotation", "Distribution", "MaxBounces", "Tolerance")
 
 
-def energies(metals: list[variants.Material], compared: "list[Variant]", log: Path) -> dict:
-    """Return, by variant key, the mean radiance of a white sphere with each metal's surface.
+# Switches materials to a variant.
+Switch = Callable[[list[variants.Material]], None]
+
+
+def energies(
+    metals: list[variants.Material], switches: Mapping[str, Switch], log: Path
+) -> dict[str, list[float]]:
+    """Return, by the keys of `switches`, the mean radiance of white spheres like the metals.
 
     The mean is over the sphere's picture, so angles of view count by their projected area. Opens
     the furnace in place of the current file. `metals` are invalid afterwards.
@@ -31,16 +34,16 @@ def energies(metals: list[variants.Material], compared: "list[Variant]", log: Pa
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = SIZE
     white = variants.find_materials()
-    found: dict[str, list[float]] = {variant.key: [] for variant in compared}
+    found: dict[str, list[float]] = {key: [] for key in switches}
     work = log.with_name("furnace.exr")
-    steps = tqdm(total=len(surfaces) * len(compared), desc="Furnace", unit="sphere")
+    steps = tqdm(total=len(surfaces) * len(switches), desc="Furnace", unit="sphere")
     for surface in surfaces:
         for name, value in surface.items():
             white[0].set(name, value)
-        for variant in compared:
-            variant.apply(white)
+        for key, switch in switches.items():
+            switch(white)
             passes, _ = render.render_passes(work, SAMPLES, 0, log)
-            found[variant.key].append(float(np.mean(render.combined(passes)[_inside(scene)])))
+            found[key].append(float(np.mean(render.combined(passes)[_inside(scene)])))
             steps.update()
     steps.close()
     work.unlink()

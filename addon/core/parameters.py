@@ -59,11 +59,11 @@ _OF_ALL_KINDS: tuple[Parameter, ...] = (
         (0, 3),
         (0, 3),
         tooltip="How further bounces are computed. Single leaves them out. Fitted adds lobes from "
-        "tables, without noise; but glass that the camera does not see takes a walk, and very rough "
-        "GGX glass has Single's noise. Walk follows a few random walks and smooths their exits. "
-        "Exact has no bias but the most noise, and finds lights only by hitting them. Fitted "
-        "becomes Walk for another Model, for Bounce Only, for anisotropic glass and matte "
-        "surfaces, and for glass of an IOR below 1.05 or above 2.5",
+        "tables, without noise; but glass that the camera does not see takes a walk, and very "
+        "rough GGX glass has Single's noise. Walk follows a few random walks and smooths their "
+        "exits. Exact has no bias but the most noise, and finds lights only by hitting them. "
+        "Fitted becomes Walk for another Model, for Bounce Only, for anisotropic glass and "
+        "matte surfaces, and for glass of an IOR below 1.05 or above 2.5",
         choices=("Single", "Fitted", "Walk", "Exact"),
         panel=BOUNCES_PANEL,
     ),
