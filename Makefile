@@ -87,25 +87,25 @@ assets: ## Build the asset library of the presets into build/assets, with Blende
 previews: ## Render the presets' pictures that are missing or old (addon/previews)
 	@$(any) -m tools.previews
 
-references: ## Render the oracle's reference pictures anew (about 35 minutes)
+references: ## Render the oracle's reference pictures again (about 35 minutes)
 	@$(any) -m osl.oracle.references
 
-figures: ## Draw the supplement's figures anew (docs/figures; about nine minutes on two cores)
+figures: ## Draw the supplement's figures again (docs/figures; about nine minutes on two cores)
 	@$(any) -m tools.figures
 
 bench: ## Measure what accuracy costs in time (docs/benchmarks; about 40 minutes on two idle cores)
 	@$(any) -m tools.bench $(BENCH_ARGS)
 
-bench-check: ## Fail where a quick benchmark's ratios of times grew (about two minutes)
+bench-check: ## Fail if a quick benchmark's ratios of times grew (about two minutes)
 	@$(any) -m tools.bench --check
 
 gains: ## Measure what each change gained that made the shaders faster (docs/benchmarks/gains.md)
 	@$(any) -m tools.bench.gains
 
-tables: ## Fit the shaders' tables anew (osl/tables; about nine minutes on two cores)
+tables: ## Fit the shaders' tables again (osl/tables; about nine minutes on two cores)
 	@$(any) -m osl.tables
 
-scenes: ## Build the .blend files in scenes/ anew, with Blender 4.5 so that both versions open them
+scenes: ## Build the .blend files in scenes/ again, with Blender 4.5 so that both versions open them
 	@$(on_4.5) -m scenes.build_all
 
 clean: ## Remove what was built; the virtual environments stay
