@@ -32,8 +32,6 @@ class Mutant:
 
 
 _PICTURES = ("blender_tests/render/test_pictures.py",)
-_OSL = ("blender_tests/osl",)
-_ORACLE = ("blender_tests/oracle",)
 
 
 def _addon(*files: str) -> tuple[str, ...]:
@@ -60,14 +58,14 @@ _SHADERS = [
         "osl/include/table.h",
         "first + i * cosines + j",
         "first + j * cosines + i",
-        _OSL,
+        ("blender_tests/osl/test_tables.py",),
     ),
     Mutant(
         "table cell on the wrong side of its diagonal",
         "osl/include/table.h",
         "((s > t) ? cosines : 1)",
         "((s > t) ? 1 : cosines)",
-        _OSL,
+        ("blender_tests/osl/test_tables.py",),
     ),
     Mutant(
         "refraction forgets what the facets add",
@@ -88,28 +86,28 @@ _SHADERS = [
         "osl/include/fresnel.h",
         "float s5 = s * s * s * s * s;",
         "float s5 = s * s * s * s;",
-        _OSL,
+        ("blender_tests/osl/test_fresnel.py",),
     ),
     Mutant(
         "glass reflects p-polarised light as s-polarised",
         "osl/include/fresnel.h",
         "return min(0.5 * (s * s + p * p), 1);",
         "return min(s * s, 1);",
-        _OSL,
+        ("blender_tests/osl/test_fresnel.py",),
     ),
     Mutant(
         "the chance to leave counts shadowing once",
         "osl/include/smith.h",
         "return (stays > 0) ? leaves / (leaves + stays) : 1;",
         "return o[2] / (o[2] + excess);",
-        _OSL,
+        ("blender_tests/osl/test_smith.py",),
     ),
     Mutant(
         "GGX's caps keep their width below the horizon",
         "osl/include/visible.h",
         "float width = (w[2] >= 0) ? 1 + w[2] :",
         "float width = (w[2] >= 0) ? 1 :",
-        _OSL,
+        ("blender_tests/osl/test_visible.py",),
     ),
     Mutant(
         "light inside glass sees the index upside down",
@@ -123,7 +121,7 @@ _SHADERS = [
         "osl/include/fitted.h",
         "min(s2 * s2 * s, 1)",
         "min(s2 * s2, 1)",
-        _OSL,
+        ("blender_tests/osl/test_fresnel.py",),
     ),
     Mutant(
         "a series of bounces without its first weight",
@@ -172,7 +170,7 @@ _SHADERS = [
         "osl/include/inputs.h",
         "accuracy.kernel = legal(kernel, 0.05, 1, 0.3);",
         "accuracy.kernel = kernel;",
-        ("blender_tests/stability", "blender_tests/osl", "blender_tests/render"),
+        ("blender_tests/render/test_inputs.py",),
     ),
     Mutant(
         "Fitted is Walk",
@@ -200,7 +198,7 @@ _SHADERS = [
         "osl/tables/conductor_lobes.h",
         ".01144,.02157,.02974",
         ".01144,.03157,.02974",
-        _OSL,
+        ("blender_tests/osl/test_tables.py",),
     ),
     Mutant(
         "GGX and Beckmann change places",
@@ -311,7 +309,7 @@ _SOURCES = [
         "osl/oracle/fresnel.py",
         "COS_82 = 1.0 / 7.0",
         "COS_82 = 1.0 / 6.0",
-        _ORACLE,
+        ("blender_tests/oracle/test_fresnel.py",),
     ),
 ]
 

@@ -27,7 +27,7 @@ def _tables(name: str) -> list[np.ndarray]:
 
 
 @pytest.mark.parametrize("name", FITTED)
-def test_header_is_no_older_than_its_sources(name: str) -> None:
+def test_header_is_what_its_sources_made(name: str) -> None:
     assert not is_stale(name), "run make tables"
 
 

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 import pytest
 
+from addon.core.parameter import Parameter
 from addon.core.parameters import CONDUCTOR
 from addon.material.node import new_material
 from scenes import common, pictures
@@ -60,6 +61,11 @@ def assert_sound(image: np.ndarray) -> None:
     assert blocks.max() < BRIGHTEST
 
 
+def _fast_quality(parameter: Parameter) -> str:
+    """The quality of the fast tier: the default, or the one that uses the parameter."""
+    return "Walk" if parameter.identifier in ("Walks", "Kernel", "BounceOnly") else "Fitted"
+
+
 @pytest.mark.parametrize(
     ("parameter", "quality"),
     [
@@ -67,7 +73,7 @@ def assert_sound(image: np.ndarray) -> None:
             parameter,
             quality,
             id=f"{parameter.identifier}-{quality}",
-            marks=[] if quality == "Fitted" else pytest.mark.nightly,
+            marks=[] if quality == _fast_quality(parameter) else pytest.mark.nightly,
         )
         for parameter in CONDUCTOR
         for quality in QUALITIES

@@ -45,15 +45,20 @@ def write(name: str) -> None:
         guard=f"{name}_LOBES".upper(),
         lines="\n// ".join(about),
         stamp=stamp(name),
+        digest=header.digest(body),
         body=body,
     )
     path(name).write_text(text, encoding="utf-8")
 
 
 def is_stale(name: str) -> bool:
-    """Whether a header is missing or older than its sources."""
-    here = path(name)
-    return not here.is_file() or f"// Sources {stamp(name)}.\n" not in here.read_text("utf-8")
+    """Whether a header is missing, older than its sources, or edited by hand."""
+    if not path(name).is_file():
+        return True
+    text = path(name).read_text("utf-8")
+    _, _, rest = text.partition('#include "../include/table.h"\n\n')
+    body = rest.removesuffix("\n#endif\n")
+    return f"// Sources {stamp(name)}, body {header.digest(body)}.\n" not in text
 
 
 def main() -> int:
