@@ -169,7 +169,7 @@ def test_files_that_are_none_are_refused(registered, folder, tmp_path):
     outside.write_text(GOOD)
     with pytest.raises(RuntimeError, match=r"the folder .* is not one of"):
         apply(filepath=str(outside))
-    with pytest.raises(RuntimeError, match="none of the saved presets"):
+    with pytest.raises(RuntimeError, match="not one of the saved presets"):
         registered.ops.microbounce.remove_user_preset(filepath=str(outside))
     assert outside.exists()
 
