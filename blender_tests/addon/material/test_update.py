@@ -38,6 +38,7 @@ def old_material(empty_file, kind):
     node.inputs["Sparkle"].default_value = 0.25
     noise = tree.nodes.new("ShaderNodeTexNoise")
     tree.links.new(noise.outputs[0], node.inputs["Anisotropy"])
+    tree.links.new(noise.outputs[0], node.inputs["Rotation"]).is_muted = True
     node.inputs["Kernel"].keyframe_insert("default_value", frame=1)
     node.name, node.label, node.location, node.width = "Mine", "Shiny", (12, 34), 333
     node.inputs["Model"].hide = True
@@ -55,8 +56,9 @@ def test_a_node_takes_todays_group_in_place(old_material, kind):
     values = {name: node.inputs[name].default_value for name in ("Roughness", "Walks", "Quality")}
     assert values == {"Roughness": pytest.approx(0.7), "Walks": 9, "Quality": 2}
     assert node.inputs["Tolerance"].default_value == pytest.approx(0.001), "new: today's default"
-    linked = {s.name: s.links[0].from_node.bl_idname for s in node.inputs if s.is_linked}
-    assert linked == {"Anisotropy": "ShaderNodeTexNoise"}
+    links = {s.name: (k.from_node.bl_idname, k.is_muted) for s in node.inputs for k in s.links}
+    noise = "ShaderNodeTexNoise"
+    assert links == {"Anisotropy": (noise, False), "Rotation": (noise, True)}
     assert [k.to_node.bl_idname for k in node.outputs["BSDF"].links] == ["ShaderNodeOutputMaterial"]
     assert (node.label, tuple(node.location), node.width) == ("Shiny", (12, 34), 333)
     assert [s.name for s in node.inputs if s.hide] == ["Model"]
