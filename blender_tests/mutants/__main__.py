@@ -92,8 +92,8 @@ def table(verdicts: list[Verdict]) -> str:
     """Return the verdicts as a Markdown table."""
     rows = ["| what is broken | where | the test that fails |", "| --- | --- | --- |"]
     for verdict in verdicts:
-        test = verdict.caught_by.removeprefix("blender_tests/") or "none: it survives"
-        rows.append(f"| {verdict.mutant.name} | `{verdict.mutant.path}` | `{test}` |")
+        file, _, test = verdict.caught_by.removeprefix("blender_tests/").partition("::")
+        rows.append(f"| {verdict.mutant.name} | `{verdict.mutant.path}` | `{file}` `{test}` |")
     return "\n".join(rows) + "\n"
 
 
