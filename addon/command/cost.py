@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 
-from ..core.cost.options import OPTIONS, Option, options_of
+from ..core.cost.options import OPTIONS, CostOption, options_of
 from ..core.cost.plan import PlanError
 from ..core.run import Progress
 from ..cost.run import CostError, measure
@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_argument(parser: argparse.ArgumentParser, option: Option) -> None:
+def _add_argument(parser: argparse.ArgumentParser, option: CostOption) -> None:
     text = option.help.replace("%", "%%")
     if isinstance(option.default, bool):
         what = "leave Cycles' own materials out"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.cost.options import OPTIONS, Option, options_of
+from ..core.cost.options import OPTIONS, CostOption, options_of
 from ..core.cost.plan import PlanError
 from ..core.run import RunError
 from .following import FollowsRun
@@ -26,7 +26,7 @@ def last_measurement() -> dict[str, object] | None:
     return _last
 
 
-def _property(option: Option) -> object:
+def _property(option: CostOption) -> object:
     """Return the property of an option."""
     shown = {"name": option.label, "description": option.help}
     if option.choices:

@@ -32,7 +32,7 @@ def registered_libraries(context: bpy.types.Context) -> list[bpy.types.UserAsset
     return [item for item in libraries if item.path in ours]
 
 
-def forget() -> None:
+def forget_folders() -> None:
     """Look at the folders again when they are next asked for."""
     _look_at.cache_clear()
 
@@ -82,7 +82,7 @@ class MICROBOUNCE_OT_register_library(Polled, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Add it. The user's own setting decides whether preferences are saved."""
-        forget()
+        forget_folders()
         reason = self.why_not(context)
         if reason:  # since the panel was drawn
             self.report({"ERROR"}, reason)
@@ -110,7 +110,7 @@ class MICROBOUNCE_OT_unregister_library(Polled, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove it, and no other."""
-        forget()
+        forget_folders()
         for library in registered_libraries(context):
             context.preferences.filepaths.asset_libraries.remove(library)
         context.preferences.is_dirty = True
@@ -122,9 +122,9 @@ CLASSES = (MICROBOUNCE_OT_register_library, MICROBOUNCE_OT_unregister_library)
 
 def register() -> None:
     """Look at the folders again: another version may have been installed into them."""
-    forget()
+    forget_folders()
 
 
 def unregister() -> None:
     """Drop the results."""
-    forget()
+    forget_folders()

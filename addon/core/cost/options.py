@@ -19,7 +19,7 @@ def listed(values: Iterable[object]) -> str:
 
 
 @dataclass(frozen=True)
-class Option:
+class CostOption:
     """One option.
 
     name    -- of the property; the argument has hyphens for its underscores
@@ -43,7 +43,7 @@ class Option:
 
 
 OPTIONS = (
-    Option(
+    CostOption(
         "samples",
         "Samples",
         _DEFAULT.samples,
@@ -52,7 +52,7 @@ OPTIONS = (
         (0, 65536),
         metavar="N",
     ),
-    Option(
+    CostOption(
         "percentage",
         "Size",
         _DEFAULT.percentage,
@@ -61,7 +61,7 @@ OPTIONS = (
         percent=True,
         metavar="P",
     ),
-    Option(
+    CostOption(
         "rounds",
         "Rounds",
         _DEFAULT.rounds,
@@ -69,7 +69,7 @@ OPTIONS = (
         (2, 32),
         metavar="N",
     ),
-    Option(
+    CostOption(
         "error",
         "Target Error",
         100.0 * _DEFAULT.error,
@@ -78,35 +78,35 @@ OPTIONS = (
         percent=True,
         metavar="PERCENT",
     ),
-    Option(
+    CostOption(
         "steps", "Qualities", listed(_DEFAULT.steps), "Qualities to compare, with commas between"
     ),
-    Option(
+    CostOption(
         "bounces",
         "Bounces",
         listed(_DEFAULT.bounces),
         "Limits of the bounces to compare, in Walk, with commas between; none leaves them out",
     ),
-    Option(
+    CostOption(
         "walks",
         "Walks",
         listed(_DEFAULT.walks),
         "Numbers of walks to compare, in Walk, with commas between; none leaves them out",
     ),
-    Option(
+    CostOption(
         "kernels",
         "Kernels",
         listed(_DEFAULT.kernels),
         "Radii of the lobe to compare, in Walk, with commas between; none leaves them out",
     ),
-    Option(
+    CostOption(
         "baselines",
         "Cycles' Own",
         _DEFAULT.baselines,
         "Compare Cycles' own materials of the same values too, with Open Shading Language on and "
         "off",
     ),
-    Option(
+    CostOption(
         "reference",
         "Reference",
         _DEFAULT.reference,
@@ -122,14 +122,14 @@ OPTIONS = (
             )
         ),
     ),
-    Option(
+    CostOption(
         "reference_samples",
         "Reference Samples",
         _DEFAULT.reference_samples,
         f"Samples of the reference; 0 takes {REFERENCE_FACTOR} times those of a picture",
         metavar="N",
     ),
-    Option(
+    CostOption(
         "output",
         "Output",
         OUTPUT,

@@ -189,7 +189,7 @@ def test_the_library_button_follows_the_preferences(registered, monkeypatch, tmp
     monkeypatch.setattr(library, "_FOLDERS", (tmp_path,))
     assert not registered.ops.microbounce.register_library.poll()
     (tmp_path / library.BLEND).write_bytes(b"")
-    library.forget()
+    library.forget_folders()
     assert draw(registered, PANEL).named("register_library")
     registered.ops.microbounce.register_library()
     record = draw(registered, PANEL)
