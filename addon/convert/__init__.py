@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Converts Cycles' own surface nodes to ours and back, without loss.
 
-A converted node keeps the state of the one it was made from. On the way back that state returns,
-with what was changed in between translated. Names, places and looks of nodes, and links and
-animation of inputs that both have, go along both ways; links whose values need a formula go through
-nodes for it.
+A converted node keeps the state of the node it was made from. The way back restores that state and
+translates later changes. Nodes keep their names, places and looks both ways, and links and
+animation of inputs that both have. A link whose values need a formula goes through nodes for it.
 """
 
 from collections.abc import Iterable
@@ -34,8 +33,8 @@ __all__ = [
 def plan(material: bpy.types.Material, direction: str = TO_OURS) -> Conversion:
     """Return what `to_microbounce` or `to_native` would do, and change nothing.
 
-    `direction` is TO_OURS or TO_NATIVE; raises ValueError for another, and TypeError where
-    `material` is none.
+    `direction` is TO_OURS or TO_NATIVE. Raises ValueError for another, and TypeError if `material`
+    is not a material.
     """
     steps, stay = _checked_steps(material, direction)
     return _conversion(material, steps, stay)
@@ -44,7 +43,7 @@ def plan(material: bpy.types.Material, direction: str = TO_OURS) -> Conversion:
 def needed_groups(materials: Iterable[bpy.types.Material]) -> dict[str, bpy.types.NodeTree]:
     """Return the node groups, by kind, that `to_microbounce` puts into `materials`.
 
-    Makes them where the file has none. Raises one of GROUP_ERRORS if that fails.
+    Makes them if the file has none. Raises one of GROUP_ERRORS if that fails.
     """
     steps = [step for material in materials for step in _checked_steps(material, TO_OURS)[0]]
     return {kind: material_group(kind) for kind in sorted({step.made.target for step in steps})}
@@ -53,11 +52,11 @@ def needed_groups(materials: Iterable[bpy.types.Material]) -> dict[str, bpy.type
 def to_microbounce(
     material: bpy.types.Material, groups: dict[str, bpy.types.NodeTree] | None = None
 ) -> Conversion:
-    """Put nodes of ours in the place of native ones, where they have a counterpart.
+    """Replace native nodes that have a counterpart by ours.
 
-    `groups` are the `needed_groups`, found here where they are None: for many materials, finding
-    them takes most of the time. Raises one of GROUP_ERRORS if a node group cannot be made;
-    nothing is changed then.
+    `groups` are the `needed_groups`, which are found here if None. Pass them for many materials,
+    because finding them takes most of the time. Raises one of GROUP_ERRORS if a node group cannot
+    be made; nothing is changed then.
     """
     steps, stay = _checked_steps(material, TO_OURS)
     if groups is None:
@@ -71,7 +70,7 @@ def to_microbounce(
 
 
 def to_native(material: bpy.types.Material) -> Conversion:
-    """Put native nodes in the place of ours: those that they were made from, or the nearest."""
+    """Replace our nodes by the native nodes they were made from, or by the closest ones."""
     steps, stay = _checked_steps(material, TO_NATIVE)
     for step in steps:
         _apply(material.node_tree, step, material.node_tree.nodes.new(step.made.target))
@@ -91,14 +90,14 @@ def _conversion(material: bpy.types.Material, steps: list[Step], stay: list[Entr
 
 
 def _apply(tree: bpy.types.NodeTree, step: Step, new: bpy.types.Node) -> None:
-    """Let `new` take the place of the step's node."""
+    """Put `new` in the place of the step's node."""
     old, used, made = tree.nodes[step.entry.node], step.record, step.made
     hidden, panels = (used.was.hidden, used.was.panels) if used is not None else ([], {})
     write_state(new, State(new.bl_idname, made.settings, made.values, [], hidden, panels))
     animated = animated_inputs(old, step.curves)
     lost = lost_links(old, made.carried)
     take_place(tree, old, new, made, used.links if used is not None else [], step.curves)
-    # A node that a conversion made and nobody changed is made again by converting afresh.
+    # A converted node that nobody changed is made again by converting from scratch.
     untouched = used is not None and used.fresh and used.made.holds_the_same(step.state)
     if not untouched or lost:
         now = read_state(new, frozenset(made.carried[name] for name in animated))

@@ -10,7 +10,7 @@ _FITTED = SHARED["Quality"].checked("Fitted")
 _GGX = SHARED["Distribution"].checked("GGX")
 _BECKMANN = SHARED["Distribution"].checked("Beckmann")
 
-# Above these, the mean colour with Multiscatter GGX differs from ours by 2 % or more.
+# Above these, the mean colour of Multiscatter GGX differs from ours by 2 % or more.
 _VISIBLE_GLASS, _VISIBLE_METAL = 0.35, 0.7
 
 _NAMES = {"GGX": _GGX, "MULTI_GGX": _GGX, "BECKMANN": _BECKMANN}
@@ -41,7 +41,7 @@ def distribution_to_ours(native: State, made: Translation) -> None:
 def _note_scaled(made: Translation) -> None:
     """Note where Multiscatter GGX, which scales the light of one bounce, differs visibly.
 
-    Inputs that are linked or animated count with the values that they hide.
+    A linked or animated input counts with the value that it hides.
     """
     if made.target == "DIELECTRIC":
         if made.values["Roughness"] > _VISIBLE_GLASS:
@@ -76,7 +76,7 @@ def distribution_to_native(ours: State, made: Translation) -> None:
 
 
 def note_model(ours: State, made: Translation) -> None:
-    """Note what native nodes have no counterpart for."""
+    """Note the values that native nodes cannot show."""
     for name in ("Model", "Bounce Only"):
         if not ours.is_fixed(name, 0):
             made.notes.append(f"{name} has no counterpart: kept for the way back")

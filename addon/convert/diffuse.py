@@ -7,10 +7,10 @@ from .formula import Formula, Operation
 from .state import State
 from .translation import Family, Translation
 
-# Our Roughness nearest to Oren and Nayar's sigma is 0.8 sigma^0.3: spheres of albedo 0.4 and 0.8
-# under suns from three sides are then 2, 2, 3, 7 and 17 % (L2) apart at most, for sigma 0.05, 0.1,
-# 0.25, 0.5 and 1. The way back is not the inverse but the fallback's factor, since ours goes where
-# Oren and Nayar's model does not.
+# The Roughness of ours closest to Oren and Nayar's sigma is 0.8 sigma^0.3. Spheres of albedo 0.4
+# and 0.8 under suns from three sides are then at most 2, 2, 3, 7 and 17 % (L2) apart, for sigma
+# 0.05, 0.1, 0.25, 0.5 and 1. The way back takes the fallback's factor instead of the inverse,
+# because ours goes further than Oren and Nayar's model.
 _TO_OURS = Formula((Operation("POWER", 0.3, clamp=True), Operation("MULTIPLY", 0.8)))
 _TO_NATIVE = Formula((Operation("MULTIPLY", MATTE_ROUGHNESS),))
 
@@ -42,7 +42,7 @@ def matte_roughness_to_ours(native: State, name: str, made: Translation) -> None
 
 
 def matte_roughness_to_native(ours: State, name: str, made: Translation) -> None:
-    """Set Oren and Nayar's roughness, the input `name`, from ours, and note what differs."""
+    """Set Oren and Nayar's roughness, the input `name`, from ours, and note the difference."""
     made.derive(ours, "Roughness", name, _TO_NATIVE, undoes=_TO_OURS)
     if not ours.is_fixed("Roughness", 0.0):
         made.notes.append("Oren and Nayar's model stands for ours, which looks nearest")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which native nodes have a counterpart of ours, and the nearest native one of each kind."""
+"""The native nodes that have a counterpart of ours, and the closest native one of each kind."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ from .translation import NotConvertibleError, Translation
 FAMILIES = {f.idname: f for f in (METALLIC, GLOSSY, GLASS, DIFFUSE, PRINCIPLED)}
 NEAREST = {"CONDUCTOR": METALLIC, "DIELECTRIC": GLASS, "DIFFUSE": DIFFUSE}
 
-# Nodes that might be expected to be convertible.
+# Nodes that a user might expect to convert.
 _WITHOUT_COUNTERPART = {
     "ShaderNodeBsdfRefraction": "It refracts without reflecting, which Microbounce does not have: "
     "use a Glass BSDF",
@@ -25,7 +25,7 @@ NATIVE_TYPES = frozenset(FAMILIES) | frozenset(_WITHOUT_COUNTERPART)
 
 
 def translated_to_ours(native: State) -> Translation:
-    """Return what a native node's state becomes in a node of ours; its target is our kind.
+    """Return the translation of a native node's state to ours; its target is our kind.
 
     Raises NotConvertibleError if it has no counterpart.
     """
@@ -37,17 +37,17 @@ def translated_to_ours(native: State) -> Translation:
 
 
 def translated_to_native(kind: str, ours: State, was: State | None) -> Translation:
-    """Return what the state of a node of ours becomes in a native node; its target is the type.
+    """Return the translation of our node's state to a native node; its target is the type.
 
-    `was` is the native state that it was made from, whose type is taken, or None for the nearest
-    type. Raises NotConvertibleError if that type cannot show it.
+    `was` is the native state that our node was made from, and gives the type. None takes the
+    closest type. Raises NotConvertibleError if that type cannot show it.
     """
     family = NEAREST[kind] if was is None else FAMILIES[was.idname]
     return family.back(_within_limits(kind, ours), was)
 
 
 def _within_limits(kind: str, ours: State) -> State:
-    """Return the state that the shader sees: a script may set what the sliders do not reach."""
+    """Return the state that the shader sees, because scripts can set values beyond the sliders."""
     limits = {p.label: p.legal for p in KINDS[kind].parameters}
     values = {
         name: _cut(value, *limits[name]) if name in limits else value
@@ -73,7 +73,7 @@ def _keep_within_limits(native: State, made: Translation) -> None:
 
 
 def _cut(value: float | list[float], low: float, high: float) -> float | list[float]:
-    # In this order what is no number becomes `high`.
+    # In this order NaN becomes `high`.
     if isinstance(value, list):
         return [max(low, min(high, component)) for component in value]
     return max(low, min(high, value))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Formulas between inputs of native nodes and ours: of a value, or as nodes in front of a link.
+"""Formulas between inputs of native nodes and ours, for a value or as nodes in a link.
 
-Nodes that a conversion puts in are taken out by the way back, unless they were changed.
+The way back removes the nodes that a conversion inserted, unless they were changed.
 """
 
 import math
@@ -13,11 +13,11 @@ import bpy
 from ..material.animation import input_curves
 from ..material.sockets import SocketValue
 
-# On nodes that a conversion put in.
+# Marks the nodes that a conversion inserted.
 INSERTED_KEY = "microbounce_inserted"
 
 _GAMMA, _MATH = "ShaderNodeGamma", "ShaderNodeMath"
-_SPACING = 160.0  # between the left edges of nodes that are put in
+_SPACING = 160.0  # between the left edges of inserted nodes
 
 # As Cycles computes them.
 _OPERATIONS: dict[str, Callable[[float, float], float]] = {
@@ -33,7 +33,7 @@ _OPERATIONS: dict[str, Callable[[float, float], float]] = {
 class Operation:
     """One node: its operation, its second operand, and whether its result is cut to 0 to 1.
 
-    GAMMA is of colours; the others are those of a Math node.
+    GAMMA works on colours; the others are operations of a Math node.
     """
 
     name: str
@@ -52,7 +52,7 @@ class Operation:
             node.operation, node.use_clamp = self.name, self.clamp
 
     def is_made_by(self, node: bpy.types.Node) -> bool:
-        """Return whether `node` was put in for this, and still does it."""
+        """Return whether `node` was inserted for this, and still does it."""
         return (
             INSERTED_KEY in node
             and node.bl_idname == self.idname
@@ -102,9 +102,9 @@ class Formula:
     def inserted(
         self, source: bpy.types.NodeSocket
     ) -> tuple[bpy.types.NodeSocket, list[bpy.types.Node]] | None:
-        """Return what goes into the nodes that were put in for it and give `source`, and them.
+        """Return the input of the nodes that were inserted for it before `source`, and those nodes.
 
-        They come from the last to the first. None if there are none, or they were changed.
+        The nodes go from the last to the first. None if there are none, or they were changed.
         """
         curves, nodes = input_curves(source.id_data), []
         for operation in reversed(self.operations):

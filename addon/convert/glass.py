@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Glass BSDF: our glass has its inputs and conventions, and an anisotropy besides."""
+"""Glass BSDF: our glass has its inputs and conventions, and also an anisotropy."""
 
 from .bounces import distribution_to_native, distribution_to_ours, note_isotropic
 from .state import State

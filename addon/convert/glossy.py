@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Glossy BSDF: reflects the same at every angle, and has another anisotropy than our metal.
+"""Glossy BSDF: it reflects the same at every angle, and its anisotropy differs from our metal's.
 
-Its alphas are r^2 / (1 + a) and r^2 (1 + a) for an anisotropy a below 0, the other way round for
-one above 0. Ours are r^2 / s and r^2 s with s = sqrt(1 - 0.9 A).
+Its alphas are r^2 / (1 + a) and r^2 (1 + a) for an anisotropy a below 0, and swapped for one above
+0. Ours are r^2 / s and r^2 s with s = sqrt(1 - 0.9 A).
 """
 
 import math
@@ -19,11 +19,11 @@ _QUARTER_LESS = Formula((Operation("ADD", -0.25), Operation("FRACT")))
 # The smallest s, at A = 1.
 _SHORTEST = math.sqrt(1.0 - 0.9)
 
-# F82 reflects F(c) = f + (1 - f) (1 - c)^5 - b c (1 - c)^6 at a cosine c, with b such that F(1/7)
-# is the tint times what it is without b. Its mean is f + (1 - f) / 21 - b / 126.
+# F82 reflects F(c) = f + (1 - f) (1 - c)^5 - b c (1 - c)^6 at a cosine c. b makes F(1/7) the tint
+# times its value without b. The mean is f + (1 - f) / 21 - b / 126.
 _COSINE = 1.0 / 7.0
 
-# Where the colour is a texture, the tint is that of this reflectance.
+# If the colour is a texture, the tint is that of this reflectance.
 _TYPICAL = 0.8
 
 
@@ -53,7 +53,7 @@ def _forward(native: State) -> Translation:
 def edge_tint(reflectance: float) -> float:
     """Return the F82 tint whose reflectance has the mean `reflectance`, that straight on.
 
-    Both are from 0 to 1; reflectances outside are taken at the nearer end.
+    Both are from 0 to 1. A reflectance outside counts as the closer end.
     """
     f = max(0.0, min(1.0, reflectance))
     schlick = f + (1.0 - f) * (1.0 - _COSINE) ** 5
@@ -62,7 +62,7 @@ def edge_tint(reflectance: float) -> float:
 
 
 def _anisotropy_to_ours(native: State, made: Translation) -> None:
-    # Nodes could turn its size into ours, but its sign turns Rotation as well.
+    # Nodes could convert its size, but its sign also turns Rotation.
     need_fixed(native, "Anisotropy", "its sign decides on our Rotation too")
     a = min(max(native.values["Anisotropy"], -0.99), 0.99)
     if a > 0.0:

@@ -20,7 +20,7 @@ def _forward(native: State) -> Translation:
 
 
 def _kind(native: State) -> str:
-    """Return the kind of ours that it is; raises NotConvertibleError where it is none."""
+    """Return the kind of ours that it is. Raises NotConvertibleError if it is none."""
     need_value(native, "Alpha", "Microbounce has no transparency", 1.0)
     if not native.is_fixed("Emission Color", _BLACK):
         need_value(native, "Emission Strength", "Microbounce has no emission", 0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a converted node keeps of the one it was made from, so that the way back loses nothing."""
+"""A converted node's record of the node it was made from, so that the way back loses nothing."""
 
 import json
 from dataclasses import asdict, dataclass, replace
@@ -33,9 +33,9 @@ class Record:
     """Kept on a converted node.
 
     was     -- the state of the node that it was made from
-    links   -- that node's links which had no counterpart
-    made    -- the state of the converted node as it was made: what differs since is the user's
-    fresh   -- whether `made` is what a node without a record becomes
+    links   -- that node's links that had no counterpart
+    made    -- the state of the converted node when it was made; later differences are the user's
+    fresh   -- whether a node without a record becomes `made` too
     """
 
     was: State
@@ -67,9 +67,9 @@ def write_record(node: bpy.types.Node, record: Record) -> None:
 
 
 def merged(then: Translation, now: Translation, was: State) -> Translation:
-    """Return `was` as a translation, with what was changed since `then`, as `now` has it.
+    """Return `was` as a translation, with the changes from `then` to `now`.
 
-    `then` is the translation of the node as it was made from `was`, `now` that of what it is now.
+    `then` translates the node as it was made from `was`, `now` as it is now.
     """
     made = replace(now, values=was.values.copy(), settings=was.settings.copy())
     for old, new, kept in (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts a node in the place of another, which it then removes."""
+"""Puts a node in the place of another and removes that one."""
 
 import bpy
 
@@ -8,7 +8,7 @@ from .record import RECORD_KEY, Link
 from .state import inputs_by_name
 from .translation import Translation
 
-# What every node has, and keeps as it is.
+# Properties of every node that stay as they are.
 _LOOKS = (
     *("label", "mute", "hide", "select", "use_custom_color", "color"),
     *("show_options", "show_preview", "show_texture", "warning_propagation"),
@@ -25,8 +25,8 @@ def take_place(
 ) -> None:
     """Give `new` the links, animation, looks, place and name of `old`, and remove `old`.
 
-    `made` says where the links of each input of `old` go; both have an output BSDF. `links` are
-    made besides, as far as their nodes are still there. Links that `made` does not carry are lost.
+    `made` says where the links of each input of `old` go. Both nodes have an output BSDF. `links`
+    are made too, if their nodes still exist. Links that `made` does not carry are lost.
     """
     was_active = tree.nodes.active == old
     inputs, targets = inputs_by_name(old), inputs_by_name(new)
@@ -52,7 +52,7 @@ def take_place(
     for key, value in old.items():
         if key != RECORD_KEY:
             new[key] = value
-    # Blender deletes what animates a node with the node, and lets it follow a new name.
+    # Blender deletes a node's animation with the node, and renames it with the node.
     move_curves(curves, list(inputs), new, made.carried)
     name = old.name
     tree.nodes.remove(old)

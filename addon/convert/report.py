@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a conversion does to each node, or would do, or why not, in words for users."""
+"""Tells users what a conversion does to each node, or would do, or why not."""
 
 from dataclasses import dataclass, field
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds what each node of a material becomes, without changing anything."""
+"""Finds the conversion of each node of a material, and changes nothing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -24,11 +24,11 @@ TO_OURS, TO_NATIVE = "TO_OURS", "TO_NATIVE"
 class Step:
     """The conversion of one node.
 
-    entry  -- what users are told
-    state  -- what the node holds now
-    made   -- what it becomes
+    entry  -- the line for users
+    state  -- the node's present values
+    made   -- its translation
     record -- the record that was used, None if there was none
-    curves -- what animates its inputs
+    curves -- the animation of its inputs
     """
 
     entry: Entry
@@ -47,7 +47,7 @@ def why_not_convertible(material: bpy.types.Material) -> str:
 
 
 def find_steps(material: bpy.types.Material, direction: str) -> tuple[list[Step], list[Entry]]:
-    """Return the nodes of `material` to be converted, and those that stay with the reasons.
+    """Return the nodes of `material` that convert, and those that stay, with the reasons.
 
     `direction` is TO_OURS or TO_NATIVE.
     """
@@ -89,7 +89,7 @@ def _in_groups(
 
 
 def _step(tree: bpy.types.NodeTree, node: bpy.types.Node, direction: str, curves: Curves) -> Step:
-    """Return the conversion of `node`; raises NotConvertibleError where there is none."""
+    """Return the conversion of `node`. Raises NotConvertibleError if there is none."""
     animated = animated_inputs(node, curves)
     state, record = read_state(node, animated), read_record(node)
     kind = node_kind(node)
@@ -141,7 +141,7 @@ def _to_ours(state: State, record: Record | None) -> tuple[Translation, Record |
 def _to_native(
     kind: str, state: State, record: Record | None
 ) -> tuple[Translation, Record | None, list[str]]:
-    """Return the translation, the record where it was used, and why it was not."""
+    """Return the translation, the record if it was used, and why it was not."""
     notes = []
     if record is not None:
         try:

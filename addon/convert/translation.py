@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a node's data become in a node of another type."""
+"""The data of a node, translated for a node of another type."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ class NotConvertibleError(Exception):
 
 
 class Through(NamedTuple):
-    """What a link goes through: nodes for `formula`, or it loses those that are for `undoes`."""
+    """A change of a link: it gains nodes for `formula`, or loses those for `undoes`."""
 
     formula: Formula
     undoes: Formula
@@ -23,14 +23,14 @@ class Through(NamedTuple):
 
 @dataclass
 class Translation:
-    """Data for a node of another type; what is not in it stays as it is on that node.
+    """Data for a node of another type. Inputs that it leaves out stay as they are.
 
     target   -- the kind of a node of ours, or the type of a native one
     values   -- values of its inputs by name
     settings -- its properties by identifier
-    carried  -- names of inputs to the target's names, where links and animation go along
-    through  -- what links of some of these go through; the others go along unchanged
-    notes    -- what will not look the same, for users
+    carried  -- inputs whose links and animation go along: their names to the target's
+    through  -- formulas for links of some of these; the others go along unchanged
+    notes    -- differences in look, for users
     """
 
     target: str
@@ -52,7 +52,7 @@ class Translation:
     def derive(
         self, source: State, name: str, target: str, formula: Formula, undoes: Formula
     ) -> None:
-        """Take an input over by a formula of its value; a link goes through nodes for it.
+        """Take an input over by a formula. A link goes through nodes for it.
 
         `undoes` is the formula of the other direction.
         """
@@ -63,7 +63,7 @@ class Translation:
 
 
 class Family(NamedTuple):
-    """A type of native node, and how it is translated.
+    """A type of native node with its translations.
 
     idname  -- the type
     forward -- its state to the data of a node of ours; raises NotConvertibleError

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""F-curves and drivers of node inputs, which Blender finds by the input's number."""
+"""F-curves and drivers of node inputs. Blender finds an input by its number."""
 
 import re
 from collections.abc import Iterator
@@ -31,9 +31,9 @@ def animated_inputs(node: bpy.types.Node, curves: Curves) -> frozenset[str]:
 def move_curves(
     curves: Curves, before: list[str], node: bpy.types.Node, names: dict[str, str]
 ) -> None:
-    """Let curves of inputs that were called `before`, in that order, move inputs of `node`.
+    """Move curves of the inputs named `before`, in that order, to inputs of `node`.
 
-    `names` are the new names by the old ones; curves of inputs that are not in it stay.
+    `names` are the new names by the old ones. Curves of other inputs stay.
     """
     numbers = {socket.name: number for number, socket in enumerate(node.inputs)}
     prefix = f'nodes["{bpy.utils.escape_identifier(node.name)}"]'

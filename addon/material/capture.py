@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Catches what Blender's compiled parts print: the OSL compiler reports only that way."""
+"""Catches the output of Blender's compiled parts, the OSL compiler's only way to report."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ from collections.abc import Callable
 def captured_output(call: Callable[[], object]) -> tuple[object, str]:
     """Run `call` and return its result with the text it wrote to standard output and error.
 
-    Where the process has no such streams (a windowed start on Windows), the text is empty.
+    The text is empty if the process has no such streams (a windowed start on Windows).
     """
     _flush()
     with tempfile.TemporaryFile() as sink:

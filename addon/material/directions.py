@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Normal and Tangent of a node group: those linked to it, or the surface's own."""
+"""The Normal and Tangent of a node group: the linked ones, or the surface's own."""
 
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ class Directions(NamedTuple):
 
 
 def make_directions(group: bpy.types.ShaderNodeTree, inputs: bpy.types.Node) -> Directions:
-    """Add nodes that pass on the group's Normal and Tangent, or the surface's own without those."""
+    """Add nodes that pass on the group's Normal and Tangent, or the surface's own."""
     geometry = group.nodes.new("ShaderNodeNewGeometry")
     geometry.location = (-900, -250)
     names = (("Normal", -500), ("Tangent", -800))
@@ -31,13 +31,13 @@ def _make_direction(
     default: bpy.types.NodeSocketVector,
     y: float,
 ) -> bpy.types.NodeSocketVector:
-    """Add nodes that pass on `given`, or `default` where it is no direction; return their output.
+    """Add nodes that pass on `given`, or `default` if it has no direction; return their output.
 
     A native material is black if its normal or tangent has length 0, as from a UV map that is
     missing, or where a component is not finite.
     """
     nodes, links = group.nodes, group.links
-    # After this the length is 1; it stays 0 for zero, and infinities become NaN.
+    # After this the length is 1, or 0 for a zero vector. Infinities become NaN.
     unit = nodes.new("ShaderNodeVectorMath")
     unit.operation = "NORMALIZE"
     unit.location = (-900, y)

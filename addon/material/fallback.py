@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The native materials that the node groups show where their script does not run.
+"""The native materials that the node groups show if their script does not run.
 
-GGX takes Cycles' own energy compensation, the nearest to further bounces; Beckmann has none.
+GGX takes Cycles' own energy compensation, which is closest to further bounces. Beckmann has none.
 """
 
 import bpy
@@ -14,11 +14,11 @@ _METAL_COLOR = {"F82": ("Base Color", "Edge Tint"), "PHYSICAL_CONDUCTOR": ("IOR"
 _METAL_SURFACE = ("Roughness", "Anisotropy", "Rotation")
 
 # Oren and Nayar's roughness over ours. Spheres of albedo 0.8 under suns from three sides are then
-# 4, 5, 9, 13 and 17 % (L2) off those of Walk at Roughness 0.3, 0.5, 0.7, 0.85 and 1; were ours
-# passed on as it is, 12, 17, 22, 27 and 35 %.
+# 4, 5, 9, 13 and 17 % (L2) off those of Walk at Roughness 0.3, 0.5, 0.7, 0.85 and 1. Without the
+# factor they are 12, 17, 22, 27 and 35 % off.
 MATTE_ROUGHNESS = 0.25
 
-# Names that Cycles has for the group's distributions.
+# Cycles' names for the group's distributions.
 _DISTRIBUTIONS = ("MULTI_GGX", "BECKMANN")
 
 
@@ -28,7 +28,7 @@ def make_fallback(
     inputs: bpy.types.Node,
     directions: Directions,
 ) -> bpy.types.NodeSocketShader:
-    """Add the native material nearest to `kind`, wired to the group's inputs; return its output."""
+    """Add the native material closest to `kind`, wired to the group's inputs; return its output."""
     return _MAKERS[kind.identifier](group, inputs, directions)
 
 
@@ -101,7 +101,7 @@ def _link_inputs(
     labels: tuple[str, ...],
     node: bpy.types.Node,
 ) -> None:
-    """Link inputs of a native node to the group's of the same names."""
+    """Link inputs of a native node to the group's inputs of the same names."""
     for label in labels:
         group.links.new(inputs.outputs[label], node.inputs[label])
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The node group of a material: the shader, and a native fallback beside it.
 
-The script node's output `Active` is 1 where the script runs and drives a Mix Shader whose own
-factor is 0. Without OSL (EEVEE, most GPUs, OSL switched off or not built in) Cycles and EEVEE
-leave the script out, the factor stays 0 and the native closure shows; with OSL the native closures
-have weight 0. That needs no handler, driver or extension in the file.
+The script node's output `Active` drives a Mix Shader whose own factor is 0. It is 1 if the script
+runs, and the native closures then have weight 0. Without OSL (EEVEE, most GPUs, OSL switched off or
+not built in) Cycles and EEVEE leave the script out, the factor stays 0, and the native closure
+shows. That needs no handler, driver or extension in the file.
 """
 
 import hashlib
@@ -25,11 +25,11 @@ from .sockets import SOCKET_TYPES, socket_value
 VERSION_KEY = "microbounce_version"
 STAMP_KEY = "microbounce_stamp"
 
-# What making the group raises on a damaged installation or a full disk; the message is for users.
+# Raised by a damaged installation or a full disk. The messages are for users.
 GROUP_ERRORS = (ShaderSourceError, ShaderCompileError, ValueError, OSError)
 
-# Raise it when other sockets, nodes, settings or links are made, here or by the makers: files then
-# take the new group beside their old one. A test knows what each number stands for.
+# Raise it if other sockets, nodes, settings or links are made, here or by the makers. Files then
+# get the new group beside their old one. A test knows what each number stands for.
 GROUP_REVISION = 4
 
 _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
@@ -38,11 +38,11 @@ _SUBTYPES = {"rad": "ANGLE", "turns": "FACTOR"}
 def material_group(kind: str) -> bpy.types.ShaderNodeTree:
     """Return the node group of a kind of material; reuse the file's own if it has today's.
 
-    A group that is linked from a library is not reused: the file shall render alone. Nor is one
-    whose sockets or script node a user took away. In a Blender without OSL the group has no
-    bytecode and shows its fallback; called again where there is a compiler, it is completed, also
-    with a text block that was deleted. Raises ValueError for an unknown kind and one of
-    GROUP_ERRORS; the file is then as it was.
+    A group linked from a library is not reused, because the file has to render alone. Nor is a
+    group whose sockets or script node a user removed. In a Blender without OSL the group has no
+    bytecode and shows its fallback. A later call in a Blender with OSL completes it, with a deleted
+    text block too. Raises ValueError for an unknown kind and one of GROUP_ERRORS; the file is then
+    as it was.
     """
     made = kind_named(kind)
     source = inlined_source(made.shader)
@@ -84,7 +84,7 @@ def has_bytecode(group: bpy.types.ShaderNodeTree) -> bool:
 
 
 def group_stamp(kind: Kind, source: str) -> str:
-    """Return what tells this group from those of other versions: all that it is made from."""
+    """Return a digest of all that this group is made from. It tells versions apart."""
     made_from = f"{VERSION} {GROUP_REVISION} {kind!r} {source}"
     return hashlib.sha256(made_from.encode()).hexdigest()[:16]
 
@@ -155,7 +155,7 @@ def _make_socket(
     if parameter.type != "COLOR":
         socket.min_value, socket.max_value = parameter.legal
     socket.default_value = socket_value(parameter, parameter.default)
-    # Hidden values also tell Cycles and EEVEE that an unlinked input means the surface's own.
+    # A hidden value also tells Cycles and EEVEE that an unlinked input means the surface's own.
     socket.hide_value = parameter.type in ("NORMAL", "TANGENT")
 
 
@@ -171,7 +171,7 @@ def _make_nodes(group: bpy.types.ShaderNodeTree, kind: Kind, source: str, byteco
     directions = make_directions(group, inputs)
     for parameter in kind.parameters:
         value = inputs.outputs[parameter.label]
-        # The tangent about the object's z axis needs generated coordinates, which Cycles makes only
+        # The tangent about the object's z axis needs generated coordinates. Cycles makes these only
         # for native nodes that ask for them.
         if parameter.identifier == "Tangent":
             value = directions.tangent

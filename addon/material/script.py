@@ -37,7 +37,7 @@ def osl_compiler_available() -> bool:
 def compile_source(source: str) -> str:
     """Return the bytecode (.oso text) of an OSL source without includes of its own.
 
-    Works in the temporary folder alone. Raises OslUnavailableError if Blender has no OSL and
+    Works only in the temporary folder. Raises OslUnavailableError if Blender has no OSL and
     ShaderCompileError, with the compiler's message, if it fails.
     """
     if not osl_compiler_available():
@@ -63,7 +63,7 @@ def compile_source(source: str) -> str:
 
 
 def _without_paths(bytecode: str) -> str:
-    """Drop comments and shorten file names: the same source gives the same bytecode anywhere."""
+    """Drop comments and shorten file names, so that a source gives the same bytecode everywhere."""
     lines = [line for line in bytecode.splitlines() if not line.startswith("#")]
     return _FOLDER.sub(r'%filename{"', "\n".join(lines)) + "\n"
 
@@ -96,16 +96,16 @@ def fill_script_node(
 def set_bytecode(node: bpy.types.Node, bytecode: str) -> None:
     """Give a script node its bytecode, "" to take it away."""
     node.bytecode = bytecode
-    # Any string that changes with the bytecode will do: Cycles keeps shaders by it.
+    # Cycles keeps shaders by this string, so it must change with the bytecode.
     node.bytecode_hash = hashlib.sha256(bytecode.encode()).hexdigest()[:32] if bytecode else ""
 
 
 def _assign_text(node: bpy.types.Node, text: bpy.types.Text) -> None:
     """Set `node.script`.
 
-    Blender then asks Cycles to compile, which fails with a traceback where `oslquery` cannot be
-    imported (bpy from a wheel). That one message says nothing to the user: sockets and bytecode
-    are set here. Everything else that is printed goes on to the console.
+    Blender then asks Cycles to compile. That fails with a traceback if `oslquery` cannot be
+    imported (bpy from a wheel). It means nothing to the user, because sockets and bytecode are set
+    here, so it is dropped. All other output goes to the console.
     """
 
     def assign() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts today's node groups in the place of those that older versions left in the file."""
+"""Replaces node groups that older versions left in the file by today's."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -31,23 +31,23 @@ class Update:
 
 
 def old_groups() -> list[bpy.types.NodeTree]:
-    """Return the file's groups of ours that older versions made and that a node uses.
+    """Return the groups in the file that older versions made and that a node uses.
 
-    Those of newer versions and those that are linked from libraries are left out. Raises
+    Groups of newer versions and groups linked from libraries are left out. Raises
     ShaderSourceError if the installation is damaged.
     """
     found = [g for g in bpy.data.node_groups if g.users and not g.library and _is_old(g)]
     if not found:
         return []
-    # A fake user, which an asset has, is no node that could be updated.
+    # An asset's fake user is no node to update.
     used = {node.node_tree for _, tree in _shader_trees() for node in group_nodes(tree)}
     return [group for group in found if group in used]
 
 
 def update_materials() -> Update:
-    """Put today's groups in the place of old ones, with the values and links of the same names.
+    """Replace old groups by today's, with the values and links of the same names.
 
-    Works on all that has shader nodes in the file. Old groups and their texts are removed where
+    Works on everything that has shader nodes in the file. Old groups and their texts are removed if
     nothing uses them any more. Raises one of GROUP_ERRORS if a group cannot be made; nothing is
     changed then.
     """
@@ -110,8 +110,8 @@ def _swap(
 ) -> list[str]:
     """Give `node` the group `new`; return what was lost.
 
-    Inputs are told by their names. Blender itself keeps those of the same identifier, which is a
-    number that counts the sockets of a group.
+    Inputs are matched by name. Blender itself matches them by identifier, which only counts the
+    sockets of a group.
     """
     defaults = _defaults(node.node_tree)
     before = {socket.name: plain_value(socket.default_value) for socket in node.inputs}
@@ -155,7 +155,7 @@ def _set_values(
     values: dict[str, SocketValue],
     defaults: dict[str, SocketValue],
 ) -> None:
-    """Set each input to the value of its name, else to the default of the group."""
+    """Set each input to the value of its name, or to the group's default."""
     for name, socket in inputs.items():
         socket.default_value = defaults[name]
         if name in values:
@@ -183,14 +183,14 @@ def _remove_unused(groups: set[bpy.types.NodeTree]) -> list[str]:
         text = script.script if script is not None else None
         removed.append(group.name)
         bpy.data.node_groups.remove(group)
-        # Texts count a user of their own, so that Blender keeps them.
+        # Each text counts one user more, so that Blender keeps it.
         if text is not None and not text.library and text.users <= int(text.use_fake_user):
             bpy.data.texts.remove(text)
     return sorted(removed)
 
 
 def _take_name(group: bpy.types.NodeTree, kind: str) -> None:
-    """Give a new group and its text the names that old ones may have left free."""
+    """Give a new group and its text the names that old ones may have freed."""
     text = script_node(group).script
     wanted = ((bpy.data.node_groups, group, KINDS[kind].name),)
     if text is not None:

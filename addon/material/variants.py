@@ -19,7 +19,7 @@ _NATIVE = {
     "DIELECTRIC": "ShaderNodeBsdfGlass",
     "DIFFUSE": "ShaderNodeBsdfDiffuse",
 }
-# The parameters that a native node has as well. Of a metal's, `fresnel_type` shows two more.
+# The parameters that a native node shares. A metal's `fresnel_type` shows two more.
 _SHARED = {
     "CONDUCTOR": ("Roughness", "Anisotropy", "Rotation", "Normal", "Tangent"),
     "DIELECTRIC": ("Color", "IOR", "Roughness", "Normal"),
@@ -37,7 +37,7 @@ class Placed:
 
     @property
     def node(self) -> bpy.types.ShaderNodeGroup:
-        """The node, looked up again: adding nodes may move it in memory."""
+        """The node, looked up again because adding nodes may move it in memory."""
         return self.tree.nodes[self.name]
 
     @property
@@ -59,16 +59,16 @@ class Placed:
         socket.default_value = checked
 
     def show_ours(self) -> None:
-        """Put our node where Cycles' own is."""
+        """Put our node in the place of Cycles' own."""
         native = self.tree.nodes.get(self._native_name)
         if native is not None:
             self._move_links(native, self.node)
 
     def show_cycles(self) -> None:
-        """Put Cycles' own closure of the same values where our node is.
+        """Put Cycles' own closure of the same values in the place of our node.
 
-        GGX takes Multiscatter GGX. For Beckmann Cycles has one bounce and nothing else. Cycles'
-        glass and matte surface have no anisotropy, and the latter takes a part of the roughness.
+        GGX becomes Multiscatter GGX. For Beckmann, Cycles has only one bounce. Cycles' glass and
+        matte surface have no anisotropy, and the matte surface takes a part of the roughness.
         """
         native = self._native_node()
         kind = self.kind.identifier

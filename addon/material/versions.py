@@ -13,7 +13,7 @@ from .group import STAMP_KEY, VERSION_KEY, group_stamp
 
 
 def is_of_another_version(group: bpy.types.NodeTree) -> bool:
-    """Return whether a group is one of ours, and not today's.
+    """Return whether a group is ours, but not today's.
 
     Raises ShaderSourceError if the installation is damaged.
     """
